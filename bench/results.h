@@ -1,0 +1,73 @@
+// What a run found, as data: the model behind results.json (schema: results/schema/results.schema.json), results.csv
+// and the stored baselines.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pb {
+
+inline constexpr int kResultsSchemaVersion = 1;
+
+// Circumstances of a run. Everything that a reader needs to judge or repeat a number.
+struct Provenance {
+  std::string toolVersion, gitHash, suiteName, suiteHash;
+  std::string startedAt;  // UTC, ISO 8601
+  std::string cpu;
+  int threads = 0;
+  std::string glBackend, glRenderer, glVersion;
+  std::map<std::string, std::string> libraries;    // name -> version
+  std::map<std::string, std::string> sceneHashes;  // scene reference -> content hash of its first frame
+  std::uint64_t seed = 0;
+  std::string controlOutcome;  // "passed" or why not; of `certify`'s control, run before the suite
+};
+
+// Metric keys as in docs/metrics.md; nullopt is written as null, +infinity as the string "inf".
+using MetricValues = std::vector<std::pair<std::string, std::optional<double>>>;
+
+struct CostResult {
+  int repetitions = 0;
+  double frameMs = 0, frameMsLow = 0, frameMsHigh = 0;  // median over repetitions and its 95 % interval
+  double plainMs = 0;                                   // plain frame, same scene and size, interleaved
+  double ratio = 0, ratioLow = 0, ratioHigh = 0;        // frame / plain, median of the repetitions' own ratios
+  std::vector<double> captureMs;                        // by bounce iteration, instrumented run
+  double finalMs = 0;                                   // instrumented run
+  double rendersPerFrame = 0;                           // cost model: 1 + B * scheduled faces, mean over the frames
+  std::string rendersFormula;                           // "6*N*B+1 = 31" or "1+B*faces = 4"
+};
+
+struct CellResult {
+  std::string scene, camera;
+  int frame = 0;
+  std::vector<std::pair<std::string, std::string>> technique;  // every axis with its value, in axis order
+  MetricValues metrics;                                        // against the converged truth, whole image
+  MetricValues maskMetrics;  // over the pixels of reflective and refractive objects; empty if there are none
+  MetricValues floor;        // noise floor of the reference: "mse" and "relmse"; keys of metrics whose floor is known
+  MetricValues unbiased;     // "mse": mean((I-A)(I-B))
+  std::optional<CostResult> cost;  // of the technique on this scene; the same for all its frames
+  std::vector<std::pair<std::string, std::int64_t>> counters;  // of this frame
+  std::vector<double> faceAgeFrames;                           // mean age of the faces of each probe
+
+  // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in baselines and --only.
+  std::string key() const;
+};
+
+struct Results {
+  Provenance provenance;
+  std::vector<CellResult> cells;
+};
+
+// JSON text with stable key order and shortest round-trip numbers; reading checks the whole document against the schema
+// and throws one-sentence input Errors naming file and place. Both are inverse to each other.
+std::string toJson(const Results& results);
+Results resultsFromJson(const std::string& text, const std::string& place);
+
+// One tidy row per cell and metric: scene,camera,frame,<axes>,region,metric,value (region: whole, mask, floor, cost,
+// counter).
+std::string toCsv(const Results& results);
+
+}  // namespace pb

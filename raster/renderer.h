@@ -1,0 +1,104 @@
+// The approximation: a rasteriser with dynamic cube maps on OpenGL 4.5 core. Everything runs on the calling thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "raster/refresh.h"
+#include "raster/technique.h"
+#include "scenes/image.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+
+enum class GlBackend { osmesa, egl };
+
+struct GlInfo {
+  std::string backend;   // "osmesa" or "egl"
+  std::string renderer;  // GL_RENDERER
+  std::string vendor;
+  std::string version;  // GL_VERSION, which names the driver's version
+  bool software;        // llvmpipe, softpipe, swrast: frame time is wall time with glFinish
+};
+
+// Deterministic work of one frame.
+struct FrameCounters {
+  std::int64_t facesCaptured = 0;  // face renders, all bounce iterations
+  std::int64_t draws = 0;
+  std::int64_t triangles = 0;
+  std::int64_t fragments = 0;   // samples that passed the depth test; 0 unless counting was asked for
+  std::int64_t probeBytes = 0;  // colour memory of the cube maps
+  std::int64_t texelsFiltered = 0;
+
+  FrameCounters& operator+=(const FrameCounters& other);  // probeBytes: the larger
+  friend bool operator==(const FrameCounters&, const FrameCounters&) = default;
+};
+
+// Milliseconds by pass; wall time between glFinish calls on software GL, timer queries on a GPU.
+struct PassTimes {
+  std::vector<double> captureMs;  // by bounce iteration
+  double finalMs = 0.0;
+};
+
+struct FrameStats {
+  FrameCounters counters;
+  std::vector<std::array<std::int64_t, 6>>
+      faceAgeFrames;  // per probe and face: frames since its capture (0: this frame)
+};
+
+// A GL context with the compiled programs. Contexts of both backends may exist in one process.
+class RasterDevice {
+ public:
+  // Throws an environment Error if the backend or OpenGL 4.5 core is not to be had.
+  explicit RasterDevice(GlBackend backend);
+  ~RasterDevice();
+  RasterDevice(const RasterDevice&) = delete;
+  RasterDevice& operator=(const RasterDevice&) = delete;
+
+  const GlInfo& info() const;
+
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// A technique rendering a sequence of frames of one scene. Keeps its cube maps between frames.
+class RasterSequence {
+ public:
+  // Throws an input Error when the probes would not fit the device (size of a cube map, memory).
+  RasterSequence(RasterDevice& device, const Technique& technique, int widthPx, int heightPx, int samplesPerAxis);
+  ~RasterSequence();
+  RasterSequence(const RasterSequence&) = delete;
+  RasterSequence& operator=(const RasterSequence&) = delete;
+
+  // Renders the next frame of the sequence: due captures in their bounce iterations, then the final image. All
+  // snapshots of a sequence must be of the same scene. The image stays on the device.
+  FrameStats renderFrame(const Snapshot& snapshot, bool countFragments = false);
+
+  // As renderFrame, with the time of each pass; slower than renderFrame because passes are kept apart.
+  PassTimes renderFrameTimed(const Snapshot& snapshot);
+
+  // Blocks until the device is idle.
+  void finish();
+
+  // The last frame: S x S samples averaged in fixed order, linear Rec.709, row 0 on top.
+  Image readImage();
+
+  // What each primary sample of the snapshot shows: (width * S) x (height * S), row 0 on top.
+  Grid<SampleId> renderIds(const Snapshot& snapshot);
+
+  // The six faces of a probe's cube map as they are now, GL order, row 0 first in memory.
+  std::array<Image, 6> readProbe(int probe);
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pb

@@ -1,0 +1,69 @@
+// The truth: an Embree multi-bounce ray tracer on all cores. The same inputs give bit-identical results for any number
+// of threads: every random number is a function of (seed, pixel, sample, dimension), every sum has a fixed order.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/image.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+
+struct ReferenceSettings {
+  int samplesPerAxis = 4;    // S: S x S primary points on a regular grid in each pixel, box filter
+  int spp = 16;              // samples of the other dimensions per primary point, even, at least 2
+  std::optional<int> depth;  // K: specular hits before a path takes the environment, unoccluded; none: converged
+  std::uint64_t seed = 1;
+  std::vector<int> hiddenInstances;  // left out of the scene for every ray
+
+  friend bool operator==(const ReferenceSettings&, const ReferenceSettings&) = default;
+};
+
+// Version of the integrator: changes whenever a picture may change. Part of the store's keys.
+inline constexpr int kIntegratorVersion = 1;
+
+// Independent batches of samples (at most kMaxBatches, min(spp, kMaxBatches) of them, an even number), each the mean of
+// its samples.
+inline constexpr int kMaxBatches = 16;
+
+struct ReferenceImage {
+  std::vector<Image> batches;
+  std::int64_t raysTraced = 0;
+
+  Image mean() const;           // of all batches, in fixed order
+  Image half(int which) const;  // mean of the even (0) or the odd (1) batches
+};
+
+class ReferenceScene {
+ public:
+  // Builds the acceleration structure. Throws an environment Error if Embree can't.
+  explicit ReferenceScene(std::shared_ptr<const Snapshot> snapshot);
+  ~ReferenceScene();
+  ReferenceScene(const ReferenceScene&) = delete;
+  ReferenceScene& operator=(const ReferenceScene&) = delete;
+
+  // Any view: the snapshot's camera, or a cube face. Called from any thread; uses TBB inside.
+  // Throws Error(Failure::interrupted) soon after `cancelled` (if given) becomes true.
+  ReferenceImage render(const shading::View& view, int widthPx, int heightPx, const ReferenceSettings& settings,
+                        const std::atomic<bool>* cancelled = nullptr) const;
+
+  // What each primary sample shows: (width * S) x (height * S).
+  Grid<SampleId> renderIds(const shading::View& view, int widthPx, int heightPx, int samplesPerAxis) const;
+
+  // Radiance along one ray; for tests of closed forms. `direction` need not be normalised.
+  glm::vec3 radiance(glm::vec3 origin, glm::vec3 direction, const ReferenceSettings& settings,
+                     std::uint64_t sample) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+std::string embreeVersion();
+
+}  // namespace pb

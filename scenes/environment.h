@@ -1,0 +1,35 @@
+// Environments: radiance from infinitely far away in every direction.
+#pragma once
+
+#include <string>
+
+#include "scenes/scene.h"
+
+namespace pb {
+
+// Equal radiance from everywhere.
+Environment makeConstantEnvironment(glm::vec3 radiance);
+
+// The procedural sky that scenes without light and environment get: blue gradient, grey below, glow around the sun.
+Environment makeProceduralSky();
+
+// Ambient light computed from the gradient by quadrature.
+Environment makeGradientEnvironment(const shading::Sky& sky);
+
+// "sky" (procedural), "black", "white", "constant?r=..&g=..&b=..", a path of an equirectangular image (.exr, .hdr,
+// ...), or six images "PREFIX{px,nx,py,ny,pz,nz}.EXT" written as one path with a '*' in the place of px..nz.
+// Equirectangular images are resampled to cube faces; u = 0.5 is -Z, u grows towards +X, v = 0 is +Y.
+// NaN and negative values become 0 and infinities the largest finite value of the image, each with a warning in
+// `warnings`.
+Environment loadEnvironment(const std::string& text, std::vector<std::string>& warnings);
+
+// Ambient light of six faces: projection onto spherical harmonics of bands 0 to 2 (Ramamoorthi and Hanrahan 2001).
+shading::Ambient projectAmbient(const std::vector<ImageRgba>& faces);
+
+// The same ambient radiance from all sides.
+shading::Ambient constantAmbient(glm::vec3 radiance);
+
+// Radiance in unit direction d, as both renderers see it.
+glm::vec3 environmentRadiance(const Environment& environment, glm::vec3 d);
+
+}  // namespace pb

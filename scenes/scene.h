@@ -1,0 +1,192 @@
+// The scene model: geometry, materials, lights, environment, cameras, animation. Right-handed, +Y up, metres, seconds,
+// radians; glTF cameras look down -Z; radiance linear Rec.709. A Scene is built once (by the glTF loader or in code),
+// then only read. Renderers never see it: they get Snapshots (snapshot.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/image.h"
+#include "scenes/shading/shading.h"
+
+namespace pb {
+
+// Axis-aligned box; the default one is empty.
+struct Bounds {
+  glm::vec3 lower{std::numeric_limits<float>::infinity()};
+  glm::vec3 upper{-std::numeric_limits<float>::infinity()};
+
+  bool empty() const { return lower.x > upper.x; }
+  glm::vec3 centre() const { return 0.5f * (lower + upper); }
+  glm::vec3 extent() const { return upper - lower; }
+  void include(const glm::vec3& p);
+  void include(const Bounds& other);
+};
+
+// Box around the transformed box.
+Bounds transformed(const Bounds& bounds, const glm::mat4& matrix);
+
+// Decoded to linear float; level 0 first, each next level half the size (rounded down, at least 1) by box filter.
+struct Texture {
+  std::string name;
+  std::vector<ImageRgba> levels;
+};
+
+// All levels from level 0; texels must be linear.
+Texture makeTexture(std::string name, ImageRgba level0);
+
+// Triangles of one material (a glTF primitive), indexed. All arrays but the optional ones have one entry a vertex.
+struct Mesh {
+  std::string name;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;             // unit
+  std::vector<glm::vec4> tangents;            // optional; w is the bitangent's sign
+  std::array<std::vector<glm::vec2>, 2> uvs;  // optional
+  std::vector<glm::vec4> colors;              // optional; linear
+  std::vector<std::uint32_t> indices;         // 3 a triangle, counter-clockwise seen from outside
+
+  // Made by finishMesh().
+  std::vector<float> uvPerMetre;               // sqrt(UV area / area) in object space, mean of the adjacent triangles
+  std::vector<std::uint32_t> smoothingGroups;  // one a triangle: triangles that share a vertex are of one group
+  Bounds bounds;
+  std::uint64_t contentHash = 0;
+
+  std::size_t triangleCount() const { return indices.size() / 3; }
+};
+
+// Completes a mesh: computes flat normals where there are none (splitting vertices), tangents if `needsTangents` and
+// there are none, and the derived members. Drops triangles without area. Throws an input Error naming the mesh for NaN
+// or infinite positions, and for indices out of range.
+std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents = false);
+
+struct Material {
+  std::string name;
+  shading::MaterialConstants constants;  // texture slots' w is set iff the texture below is
+  // Indices into Scene::textures, -1 for none, in the order of the slots in MaterialConstants.
+  int baseColorTexture = -1;
+  int metallicRoughnessTexture = -1;
+  int normalTexture = -1;
+  int emissionTexture = -1;
+  int occlusionTexture = -1;
+  bool doubleSided = false;
+
+  // Parsed from KHR_materials_{specular,volume,dispersion}; carried for the transport models that use them.
+  float specularFactor = 1.0f;
+  glm::vec3 specularColor{1.0f};
+  float thickness = 0.0f;  // metres
+  float attenuationDistance = std::numeric_limits<float>::infinity();
+  glm::vec3 attenuationColor{1.0f};
+  float dispersion = 0.0f;  // 20 / Abbe number
+
+  bool isSpecularDominant() const {
+    return constants.kind.x == shading::kSurfaceMirror || constants.kind.x == shading::kSurfaceGlass;
+  }
+};
+
+// A white diffuse material: every factor at glTF's default except metallic, which is 0.
+Material makeDiffuseMaterial(std::string name, glm::vec3 albedo);
+// A perfect mirror (reflectance 1), or a smooth metal of the given F0.
+Material makeMirrorMaterial(std::string name, glm::vec3 f0 = glm::vec3(1.0f));
+
+// Where the probe of a node's instances stands. Distances in metres.
+struct ProbeSettings {
+  bool enabled = true;
+  std::optional<glm::vec3> position;  // in the node's space; otherwise the centre of the world bounding box
+};
+
+struct Node {
+  std::string name;
+  int parent = -1;  // always smaller than the node's own index
+  glm::vec3 translation{0.0f};
+  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  // w x y z
+  glm::vec3 scale{1.0f};
+  std::optional<glm::mat4> matrix;  // instead of the three above; not animated
+  std::optional<ProbeSettings> probe;
+};
+
+// One mesh at one node. Instances are numbered as they stand in Scene::instances; ids in images are index + 1.
+struct Instance {
+  std::string name;
+  int node = 0;
+  std::shared_ptr<const Mesh> mesh;
+  int material = 0;
+};
+
+struct PunctualLight {
+  int node = 0;  // shines along the node's -Z
+  float kind = shading::kLightDirectional;
+  glm::vec3 intensity{1.0f};  // W/m^2 or W/sr
+  float range = 0.0f;         // metres, 0 for none
+  float innerConeAngle = 0.0f;
+  float outerConeAngle = 0.78539816f;
+};
+
+struct Camera {
+  std::string name;
+  int node = 0;  // looks along the node's -Z, +Y up
+  float verticalFov = 0.7853982f;
+  float zNear = 0.1f;
+};
+
+enum class TrackTarget { translation, rotation, scale };
+enum class Interpolation { step, linear, cubicSpline };
+
+// Key frames of one property of one node. Values are xyz or, for rotations, xyzw; cubic splines hold
+// (in-tangent, value, out-tangent) for each key (glTF 2.0, appendix C). Times increase strictly.
+struct Track {
+  int node = 0;
+  TrackTarget target = TrackTarget::translation;
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<float> timesSeconds;
+  std::vector<glm::vec4> values;
+};
+
+// Value of a track, held constant before its first and after its last key.
+glm::vec4 sampleTrack(const Track& track, double timeSeconds);
+
+struct Environment {
+  std::string name = "sky";
+  shading::Sky sky;              // with toGlow.w = 1 the faces below are the environment
+  std::vector<ImageRgba> faces;  // six square faces in GL order, or one black texel a face if not used
+  shading::Ambient ambient;      // light of the environment on diffuse surfaces
+};
+
+struct Scene {
+  std::string name;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Node> nodes;
+  std::vector<Instance> instances;
+  std::vector<PunctualLight> lights;
+  std::vector<Camera> cameras;  // at least one
+  std::vector<Track> tracks;
+  Environment environment;
+  double framesPerSecond = 30.0;      // frame f is the scene at time f / framesPerSecond, looped over durationSeconds
+  double durationSeconds = 0.0;       // end of the longest track; 0: nothing moves
+  float probeNear = 0.01f;            // near plane of cube captures, metres
+  std::vector<std::string> warnings;  // what the loader ignored, one sentence each
+  std::vector<std::string> notes;     // what the loader added (default camera, sky, ...)
+};
+
+// Last steps of building any scene: checks indices, adds a camera that frames everything if there is none, computes
+// durationSeconds, gives an unused environment its black faces.
+void finishScene(Scene& scene);
+
+// A camera that sees the whole box from the front and a little above.
+void addFramingCamera(Scene& scene);
+
+// "builtin:NAME[?k=v..]" or a path to .gltf/.glb, with options environment=FILE|sky|... and mirror=NODE|all.
+// Throws an input Error for anything that is not a scene.
+std::shared_ptr<const Scene> loadScene(const std::string& reference);
+
+}  // namespace pb

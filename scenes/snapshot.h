@@ -1,0 +1,88 @@
+// A scene at one time: immutable, the only input of both renderers. Everything is in world space.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+#include "scenes/shading/shading.h"
+
+namespace pb {
+
+struct SnapshotInstance {
+  std::shared_ptr<const Mesh> mesh;
+  int material = 0;
+  glm::mat4 worldFromObject;
+  glm::mat3 normalMatrix;  // inverse transpose of the upper 3x3, not normalised
+  float uvScale = 1.0f;    // multiplies the mesh's uvPerMetre
+  bool mirrored = false;   // the transform reverses orientation
+  Bounds worldBounds;
+  int probe = -1;  // index into Snapshot::probes, -1 for none
+};
+
+struct Probe {
+  glm::vec3 position;       // world
+  std::vector<int> owners;  // instances shaded by this probe; hidden while it is captured
+  float zNear;              // near plane of its faces, metres
+};
+
+struct Snapshot {
+  std::shared_ptr<const Scene> scene;  // materials, textures, environment
+  double timeSeconds = 0.0;
+  std::vector<SnapshotInstance> instances;
+  std::vector<shading::Light> lights;
+  std::vector<Probe> probes;
+  shading::View camera;  // for the aspect given to makeSnapshot; forward.w is set by withResolution()
+
+  const Material& materialOf(const SnapshotInstance& instance) const {
+    return scene->materials[static_cast<std::size_t>(instance.material)];
+  }
+};
+
+// The scene at `frame` (looped if it is animated) through the camera of that name ("" for the first).
+// aspect is width / height. Throws an input Error for an unknown camera.
+std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene, int frame, const std::string& camera,
+                                             double aspect);
+
+// Everything that determines a picture of this snapshot: geometry, transforms, materials, textures, lights,
+// environment, probes and camera. Equal hashes mean equal pictures.
+std::uint64_t contentHash(const Snapshot& snapshot);
+
+// The view with its sample cone set for an image that is `widthPx` samples wide (see shading/texture.glsl, coneLod).
+shading::View withResolution(shading::View view, int widthPx);
+
+// One face of a cube at `position`: 90 degrees, rows in GL memory order (see shading/cubemap.glsl).
+shading::View cubeFaceView(glm::vec3 position, int face, float zNear);
+
+// A hit point's surface with its textures read: the C++ twin of readSurface() in raster/shaders/surface_fetch.glsl.
+// uvs, colour, normal and tangent as interpolated; coneWidth in metres, cosine between ray and normal (for the LOD).
+struct SurfaceAttributes {
+  glm::vec3 position;
+  glm::vec3 normal;   // interpolated and normalised, on the viewer's side
+  glm::vec4 tangent;  // interpolated, w = 0: no tangent
+  glm::vec2 uv0, uv1;
+  glm::vec4 color;
+  float uvPerMetre;
+  float coneWidth;
+  float cosine;
+};
+shading::Surface readSurface(const Scene& scene, const Material& material, const SurfaceAttributes& a);
+
+// What lies on the surface besides specular light: lights, ambient, emission (no shadows).
+glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface);
+
+// What a primary sample shows, for masks and for the control's left-out pixels. Instance id is index + 1, 0 the
+// environment; group is the smoothing group + 1; texel identifies the base colour texel if a texture is read with a
+// nearest filter, else 0.
+struct SampleId {
+  std::uint32_t instance = 0;
+  std::uint32_t group = 0;
+  std::uint32_t texel = 0;
+  friend bool operator==(const SampleId&, const SampleId&) = default;
+};
+
+}  // namespace pb
