@@ -1,5 +1,5 @@
-// What a run found, as data: the model behind results.json (schema: results/schema/results.schema.json), results.csv
-// and the stored baselines.
+// What a run found, as data: the model behind results.json (schema: results/schema/results.schema.json) and
+// results.csv.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,9 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "bench/metrics/metrics.h"
+#include "bench/tolerance.h"
 
 namespace pb {
 
@@ -22,12 +25,14 @@ struct Provenance {
   std::string glBackend, glRenderer, glVersion;
   std::map<std::string, std::string> libraries;    // name -> version
   std::map<std::string, std::string> sceneHashes;  // scene reference -> content hash of its first frame
+  // Image size, samples, reference depth and noise, ... as the reader should see them: name -> value, in print order.
+  std::vector<std::pair<std::string, std::string>> settings;
   std::uint64_t seed = 0;
   std::string controlOutcome;  // "passed" or why not; of `certify`'s control, run before the suite
 };
 
-// Metric keys as in docs/metrics.md; nullopt is written as null, +infinity as the string "inf".
-using MetricValues = std::vector<std::pair<std::string, std::optional<double>>>;
+// Some metrics by their keys (see metricTable()).
+using MetricValues = std::vector<std::pair<std::string, double>>;
 
 struct CostResult {
   int repetitions = 0;
@@ -44,30 +49,42 @@ struct CellResult {
   std::string scene, camera;
   int frame = 0;
   std::vector<std::pair<std::string, std::string>> technique;  // every axis with its value, in axis order
-  MetricValues metrics;                                        // against the converged truth, whole image
-  MetricValues maskMetrics;  // over the pixels of reflective and refractive objects; empty if there are none
-  MetricValues floor;        // noise floor of the reference: "mse" and "relmse"; keys of metrics whose floor is known
-  MetricValues unbiased;     // "mse": mean((I-A)(I-B))
+  Metrics metrics;                                             // against the converged truth, whole image
+  std::optional<Metrics> maskMetrics;  // over the pixels of reflective and refractive objects, if there are any
+  // What the reference's own noise adds to "mse" and "relmse" (and to other metrics whose floor is known).
+  MetricValues floor, maskFloor;
+  MetricValues unbiased;           // "mse": mean((I-A)(I-B)), whole image
   std::optional<CostResult> cost;  // of the technique on this scene; the same for all its frames
   std::vector<std::pair<std::string, std::int64_t>> counters;  // of this frame
   std::vector<double> faceAgeFrames;                           // mean age of the faces of each probe
 
   // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in baselines and --only.
   std::string key() const;
+  // The same without the frame: cells of one sequence share their cost.
+  std::string sequenceKey() const;
 };
 
 struct Results {
   Provenance provenance;
+  Tolerances tolerance;  // of the suite
   std::vector<CellResult> cells;
 };
 
-// JSON text with stable key order and shortest round-trip numbers; reading checks the whole document against the schema
-// and throws one-sentence input Errors naming file and place. Both are inverse to each other.
+// JSON text with stable key order and shortest round-trip numbers, one cell a line; reading checks the whole document
+// against the schema and throws one-sentence input Errors naming file (`place`) and JSON pointer. Both are inverse to
+// each other.
 std::string toJson(const Results& results);
 Results resultsFromJson(const std::string& text, const std::string& place);
 
-// One tidy row per cell and metric: scene,camera,frame,<axes>,region,metric,value (region: whole, mask, floor, cost,
-// counter).
+// Reads results.json of a run directory; an input Error if it is not there.
+Results readResults(const std::string& runDirectory);
+
+// One cell as a JSON object on one line, as it stands in results.json.
+std::string toJson(const CellResult& cell);
+CellResult cellFromJson(const std::string& text, const std::string& place);
+
+// One tidy row per cell and value: scene,camera,frame,<axes>,region,metric,value (region: whole, mask, floor,
+// mask_floor, unbiased, cost, counter). Undefined values are empty, infinity is "inf".
 std::string toCsv(const Results& results);
 
 }  // namespace pb
