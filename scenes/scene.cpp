@@ -1,0 +1,184 @@
+#include "scenes/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scenes/error.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+namespace {
+
+// Box filter; odd sizes are covered by weighting the source texels by their overlap with the target texel.
+ImageRgba halved(const ImageRgba& source) {
+  ImageRgba target(std::max(1, source.width() / 2), std::max(1, source.height() / 2));
+  const double stepX = static_cast<double>(source.width()) / target.width();
+  const double stepY = static_cast<double>(source.height()) / target.height();
+  for (int y = 0; y < target.height(); ++y)
+    for (int x = 0; x < target.width(); ++x) {
+      const double x0 = x * stepX, x1 = x0 + stepX, y0 = y * stepY, y1 = y0 + stepY;
+      glm::dvec4 sum(0.0);
+      for (int sy = static_cast<int>(y0); sy < source.height() && sy < y1; ++sy)
+        for (int sx = static_cast<int>(x0); sx < source.width() && sx < x1; ++sx) {
+          const double overlap =
+              (std::min(x1, sx + 1.0) - std::max(x0, double(sx))) * (std::min(y1, sy + 1.0) - std::max(y0, double(sy)));
+          sum += overlap * glm::dvec4(source(sx, sy));
+        }
+      target(x, y) = glm::vec4(sum / (stepX * stepY));
+    }
+  return target;
+}
+
+shading::TextureSlot emptySlot() {
+  shading::TextureSlot slot;
+  slot.matrix = {1.0f, 0.0f, 0.0f, 1.0f};
+  slot.offset = glm::vec4(0.0f);
+  slot.sampler_ = {shading::kWrapRepeat, shading::kWrapRepeat, shading::kFilterLinear, shading::kFilterLinearMipLinear};
+  return slot;
+}
+
+std::size_t valuesPerKey(const Track& track) { return track.interpolation == Interpolation::cubicSpline ? 3 : 1; }
+
+glm::quat quatOf(const glm::vec4& xyzw) { return {xyzw.w, xyzw.x, xyzw.y, xyzw.z}; }
+
+glm::vec4 slerp(const glm::vec4& a, const glm::vec4& b, float t) {
+  const glm::quat q = glm::slerp(glm::normalize(quatOf(a)), glm::normalize(quatOf(b)), t);
+  return {q.x, q.y, q.z, q.w};
+}
+
+// Hermite spline of glTF 2.0, appendix C.5, between keys k and k + 1 that are `step` seconds apart.
+glm::vec4 cubicSpline(const Track& track, std::size_t k, float t, float step) {
+  const glm::vec4& v0 = track.values[3 * k + 1];
+  const glm::vec4& b0 = track.values[3 * k + 2];
+  const glm::vec4& a1 = track.values[3 * k + 3];
+  const glm::vec4& v1 = track.values[3 * k + 4];
+  const float t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * v0 + step * (t3 - 2 * t2 + t) * b0 + (-2 * t3 + 3 * t2) * v1 + step * (t3 - t2) * a1;
+}
+
+void checkTrack(const Scene& scene, const Track& track) {
+  const std::string& node = scene.nodes.at(static_cast<std::size_t>(track.node)).name;
+  if (track.timesSeconds.empty() || track.values.size() != track.timesSeconds.size() * valuesPerKey(track))
+    throwInputError("animation of node '{}' has {} values for {} keys", node, track.values.size(),
+                    track.timesSeconds.size());
+  for (std::size_t k = 0; k < track.timesSeconds.size(); ++k)
+    if (!std::isfinite(track.timesSeconds[k]) || (k > 0 && track.timesSeconds[k] <= track.timesSeconds[k - 1]))
+      throwInputError("animation of node '{}' wants increasing key times, got {} at key {}", node,
+                      track.timesSeconds[k], k);
+}
+
+}  // namespace
+
+void Bounds::include(const glm::vec3& p) {
+  lower = glm::min(lower, p);
+  upper = glm::max(upper, p);
+}
+
+void Bounds::include(const Bounds& other) {
+  lower = glm::min(lower, other.lower);
+  upper = glm::max(upper, other.upper);
+}
+
+Bounds transformed(const Bounds& bounds, const glm::mat4& matrix) {
+  Bounds result;
+  if (bounds.empty()) return result;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p((corner & 1) != 0 ? bounds.upper.x : bounds.lower.x,
+                      (corner & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+                      (corner & 4) != 0 ? bounds.upper.z : bounds.lower.z);
+    result.include(glm::vec3(matrix * glm::vec4(p, 1.0f)));
+  }
+  return result;
+}
+
+Texture makeTexture(std::string name, ImageRgba level0) {
+  Texture texture;
+  texture.name = std::move(name);
+  texture.levels.push_back(std::move(level0));
+  while (texture.levels.back().width() > 1 || texture.levels.back().height() > 1)
+    texture.levels.push_back(halved(texture.levels.back()));
+  return texture;
+}
+
+Material makeDiffuseMaterial(std::string name, glm::vec3 albedo) {
+  Material material;
+  material.name = std::move(name);
+  shading::MaterialConstants& c = material.constants;
+  c.baseColor = glm::vec4(albedo, 1.0f);
+  c.emission = {0.0f, 0.0f, 0.0f, 1.0f};
+  c.factors = {0.0f, 1.0f, 1.0f, 0.0f};
+  c.kind = {shading::kSurfaceDiffuse, 1.5f, 0.0f, 0.0f};
+  c.baseColorSlot = c.metallicRoughnessSlot = c.normalSlot = c.emissionSlot = c.occlusionSlot = emptySlot();
+  return material;
+}
+
+Material makeMirrorMaterial(std::string name, glm::vec3 f0) {
+  Material material = makeDiffuseMaterial(std::move(name), f0);
+  material.constants.factors.x = 1.0f;
+  material.constants.factors.y = 0.0f;
+  material.constants.kind.x = shading::kSurfaceMirror;
+  return material;
+}
+
+glm::vec4 sampleTrack(const Track& track, double timeSeconds) {
+  const std::vector<float>& times = track.timesSeconds;
+  const std::size_t perKey = valuesPerKey(track);
+  const std::size_t middle = perKey / 2;  // a cubic spline's value stands between its tangents
+  const auto time = static_cast<float>(timeSeconds);
+  if (time <= times.front()) return track.values[middle];
+  if (time >= times.back()) return track.values[(times.size() - 1) * perKey + middle];
+  const auto k = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin()) - 1;
+  const float step = times[k + 1] - times[k];
+  const float t = (time - times[k]) / step;
+  switch (track.interpolation) {
+    case Interpolation::step:
+      return track.values[k];
+    case Interpolation::cubicSpline:
+      return cubicSpline(track, k, t, step);
+    case Interpolation::linear:
+      break;
+  }
+  if (track.target == TrackTarget::rotation) return slerp(track.values[k], track.values[k + 1], t);
+  return glm::mix(track.values[k], track.values[k + 1], t);
+}
+
+void addFramingCamera(Scene& scene) {
+  Bounds bounds;
+  for (const auto& [world, mesh] : worldMeshes(scene, 0.0)) bounds.include(transformed(mesh->bounds, world));
+  if (bounds.empty()) bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+  const glm::vec3 centre = bounds.centre();
+  const float radius = std::max(0.5f * glm::length(bounds.extent()), 1e-3f);
+  Camera camera;
+  camera.name = "framing";
+  camera.verticalFov = glm::radians(40.0f);
+  // The bounding sphere just fits the vertical field of view; images are at least as wide as high in practice.
+  const float distance = radius / std::sin(0.5f * camera.verticalFov);
+  const glm::vec3 eye = centre + distance * glm::normalize(glm::vec3(0.35f, 0.35f, 1.0f));
+  camera.zNear = 0.01f * (distance - 0.99f * radius);
+  camera.node = static_cast<int>(scene.nodes.size());
+  Node node;
+  node.name = camera.name;
+  node.translation = eye;
+  node.rotation = glm::quatLookAt(glm::normalize(centre - eye), glm::vec3(0.0f, 1.0f, 0.0f));
+  scene.nodes.push_back(node);
+  scene.cameras.push_back(camera);
+}
+
+void finishScene(Scene& scene) {
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+    if (scene.nodes[n].parent >= static_cast<int>(n))
+      throwInputError("node '{}' of scene '{}' stands before its parent", scene.nodes[n].name, scene.name);
+  for (const Track& track : scene.tracks) {
+    checkTrack(scene, track);
+    scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(track.timesSeconds.back()));
+  }
+  if (scene.environment.faces.empty())
+    scene.environment.faces.assign(6, ImageRgba(1, 1, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
+  if (scene.cameras.empty()) {
+    addFramingCamera(scene);
+    scene.notes.emplace_back("no camera in the scene: added one that frames it");
+  }
+}
+
+}  // namespace pb

@@ -43,6 +43,13 @@ struct Snapshot {
   }
 };
 
+// Every instance's mesh with its world transform; for bounds before there is a camera.
+struct WorldMesh {
+  glm::mat4 worldFromObject;
+  std::shared_ptr<const Mesh> mesh;
+};
+std::vector<WorldMesh> worldMeshes(const Scene& scene, double timeSeconds);
+
 // The scene at `frame` (looped if it is animated) through the camera of that name ("" for the first).
 // aspect is width / height. Throws an input Error for an unknown camera.
 std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene, int frame, const std::string& camera,
@@ -71,6 +78,9 @@ struct SurfaceAttributes {
   float cosine;
 };
 shading::Surface readSurface(const Scene& scene, const Material& material, const SurfaceAttributes& a);
+
+// SampleId::texel of the point: see nearestTexelId() in shading/texture.glsl, 0 without a base colour texture.
+std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, const SurfaceAttributes& a);
 
 // What lies on the surface besides specular light: lights, ambient, emission (no shadows).
 glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface);

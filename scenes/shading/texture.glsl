@@ -74,6 +74,15 @@ PB_FUNC vec4 sampleTexture(sampler2D image, vec2 uv, float lod, vec4 settings) {
              level - float(lower));
 }
 
+// 1 + index of the texel that a lookup reads if it reads a single one of level 0 (a nearest filter), else 0.
+PB_FUNC int nearestTexelId(sampler2D image, vec2 uv, float lod, vec4 settings) {
+  bool single = lod <= 0.0f ? settings.z == kFilterNearest : settings.w == kFilterNearest;
+  if (!single) return 0;
+  ivec2 size = textureSize(image, 0);
+  ivec2 p = nearestTexel(uv, size, settings);
+  return p.y * size.x + p.x + 1;
+}
+
 // KHR_texture_transform and the UV set. matrix: columns (x,y) and (z,w); offset: x y offset, z UV set (0 or 1).
 PB_FUNC vec2 textureCoordinates(vec4 matrix, vec4 offset, vec2 uv0, vec2 uv1) {
   vec2 uv = offset.z < 0.5f ? uv0 : uv1;
