@@ -1,53 +1,20 @@
 // The gate: compares a run with a stored baseline and says whether it is the same. Rules: docs/gate.md.
 #pragma once
 
-#include <cstdint>
-#include <map>
+#include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "bench/baseline.h"
 #include "bench/results.h"
-#include "bench/tolerance.h"
 
 namespace pb {
-
-inline constexpr int kBaselineSchemaVersion = 1;
 
 // A cost ratio counts as changed when its interval does not overlap the baseline's, and the change is larger than both
 // of these: 25 % either way, and 0.2 ms of this machine's frame time.
 inline constexpr double kCostRelativeFloor = 0.25;
 inline constexpr double kCostAbsoluteFloorMs = 0.2;
-
-using GatedMetrics = std::vector<std::pair<std::string, std::optional<double>>>;
-
-struct BaselineCell {
-  std::string key;  // CellResult::key()
-  GatedMetrics metrics;
-  std::optional<GatedMetrics> maskMetrics;
-  std::vector<std::pair<std::string, std::int64_t>> counters;
-};
-
-struct BaselineCost {
-  double ratio = 0, ratioLow = 0, ratioHigh = 0;
-};
-
-// What the gate needs of a blessed run, and why it was blessed.
-struct Baseline {
-  std::string reason, blessedAt;  // UTC, ISO 8601
-  Provenance provenance;
-  Tolerances tolerance;
-  std::vector<BaselineCell> cells;
-  std::map<std::string, BaselineCost> costs;  // by CellResult::sequenceKey()
-};
-
-Baseline makeBaseline(const Results& run, const std::string& reason, const std::string& blessedAt);
-
-// One cell a line, so that version control shows what a blessing changed. Inverse to each other.
-std::string toJson(const Baseline& baseline);
-Baseline baselineFromJson(const std::string& text, const std::string& place);
-Baseline readBaseline(const std::string& path);
 
 enum class FindingKind { changed, missing, surplus, counter, cost, control };
 
@@ -78,9 +45,5 @@ int exitCode(Verdict verdict);
 std::string printGateReport(const GateReport& report, const std::string& blessCommand);
 std::string toJson(const GateReport& report);
 std::string toJUnit(const GateReport& report, const std::string& suiteName);  // one test case a cell
-
-// Writes the baseline of a run. Throws an input Error for an empty reason, a run without cells, one whose control did
-// not pass, and (unless `force`) another GL renderer or driver than that of the baseline that is there.
-void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force);
 
 }  // namespace pb

@@ -14,6 +14,10 @@
 
 namespace pb {
 
+// The value of a metric by its key in metricTable(); nullopt where it is undefined. Throws an input Error for any other
+// key.
+std::optional<double> metricValue(const Metrics& metrics, const std::string& key);
+
 inline constexpr int kResultsSchemaVersion = 1;
 
 // Circumstances of a run. Everything that a reader needs to judge or repeat a number.
@@ -42,6 +46,7 @@ struct CostResult {
   std::vector<double> captureMs;                        // by bounce iteration, instrumented run
   double finalMs = 0;                                   // instrumented run
   double rendersPerFrame = 0;                           // cost model: 1 + B * scheduled faces, mean over the frames
+  double measuredRendersPerFrame = 0;                   // 1 + faces captured, mean over the same frames
   std::string rendersFormula;                           // "6*N*B+1 = 31" or "1+B*faces = 4"
 };
 
@@ -55,8 +60,9 @@ struct CellResult {
   MetricValues floor, maskFloor;
   MetricValues unbiased;           // "mse": mean((I-A)(I-B)), whole image
   std::optional<CostResult> cost;  // of the technique on this scene; the same for all its frames
-  std::vector<std::pair<std::string, std::int64_t>> counters;  // of this frame
-  std::vector<double> faceAgeFrames;                           // mean age of the faces of each probe
+  // FrameCounters of this frame: "faces_captured", "draws", "triangles", "fragments", "probe_bytes", "texels_filtered".
+  std::vector<std::pair<std::string, std::int64_t>> counters;
+  std::vector<double> faceAgeFrames;  // mean age of the faces of each probe
 
   // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in baselines and --only.
   std::string key() const;
