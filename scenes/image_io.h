@@ -18,8 +18,8 @@ struct LoadedImage {
   Encoding encoding;  // srgb for integer formats (PNG, JPEG, ...), linear for float formats (EXR, HDR, PFM)
 };
 
-// A file of any format OpenImageIO reads; row 0 is the top row whatever the file's own order is.
-// Throws an input Error that names the file when it is missing, truncated or absurdly large.
+// EXR, HDR, PFM, PNG, JPEG, TIFF, BMP, PNM or WebP, told by content; row 0 is the top row whatever the file's own order
+// is. Throws an input Error that names the file when it is missing, truncated or absurdly large.
 LoadedImage readImage(const std::string& path);
 
 // An image file that is already in memory; `name` is for messages.
@@ -45,6 +45,11 @@ void writeExr(const std::string& path, const std::vector<NamedPlane>& channels);
 std::vector<NamedPlane> readExrChannels(const std::string& path);
 void writePng(const std::string& path, const Image& linear);          // clamps to [0,1], encodes sRGB, 8 bit
 void writePngEncoded(const std::string& path, const Image& encoded);  // stores values as they are, 8 bit
+
+// The same as file contents in memory. `encoded` is stored as it is, clamped to [0,1], with 8 or 16 bits a channel and
+// without alpha where it is 1 everywhere.
+std::string encodeExr(const Image& image);
+std::string encodePng(const ImageRgba& encoded, int bitsPerChannel);
 
 // By extension: .exr or .png; any other extension is an input Error.
 void writeImage(const std::string& path, const Image& linear);
