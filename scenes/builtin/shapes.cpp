@@ -22,7 +22,7 @@ void appendQuad(Mesh& mesh, glm::vec3 p, glm::vec3 u, glm::vec3 v) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const glm::vec3 normal = glm::normalize(glm::cross(u, v));
   const glm::vec4 tangent(glm::normalize(u), 1.0f);
-  for (const glm::vec2 st : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+  for (const glm::vec2& st : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
     mesh.positions.push_back(p + st.x * u + st.y * v);
     mesh.normals.push_back(normal);
     mesh.tangents.push_back(tangent);
