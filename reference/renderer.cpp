@@ -1,0 +1,171 @@
+#include "reference/renderer.h"
+
+#include <algorithm>
+
+#include "reference/embree_scene.h"
+#include "reference/film.h"
+#include "reference/integrator.h"
+#include "reference/sampler.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+void checkSize(int widthPx, int heightPx, int samplesPerAxis) {
+  if (widthPx < 1 || heightPx < 1)
+    throwInputError("an image needs at least one pixel each way, got {} x {}", widthPx, heightPx);
+  if (samplesPerAxis < 1) throwInputError("a pixel needs at least one sample each way, got {}", samplesPerAxis);
+}
+
+void checkSampling(const ReferenceSettings& settings) {
+  if (settings.spp < 2 || settings.spp % 2 != 0)
+    throwInputError("reference.spp must be an even number of at least 2, got {}", settings.spp);
+}
+
+void checkDepth(const ReferenceSettings& settings) {
+  if (settings.depth && *settings.depth < 1)
+    throwInputError("reference.depth must be at least 1 or \"converged\", got {}", *settings.depth);
+}
+
+HiddenInstances hiddenFlags(const Snapshot& snapshot, const std::vector<int>& hidden) {
+  HiddenInstances flags(snapshot.instances.size(), 0);
+  for (const int instance : hidden) {
+    if (instance < 0 || static_cast<std::size_t>(instance) >= flags.size())
+      throwInputError("hidden instances must be instances of the scene, 0 to {}, got {}",
+                      static_cast<int>(flags.size()) - 1, instance);
+    flags[static_cast<std::size_t>(instance)] = 1;
+  }
+  return flags;
+}
+
+// Rays through the centres of a regular grid of samples, one a sample of the raster.
+class PrimaryRays {
+ public:
+  PrimaryRays(const shading::View& view, int columns, int rows)
+      : view_(withResolution(view, columns)), columns_(columns), rows_(rows) {}
+
+  // The direction's component along the view's axis is 1: distances along the ray are those of the near plane.
+  Ray ray(int column, int row) const {
+    const auto coordinate = [](int i, int n) {
+      return 2.0f * (static_cast<float>(i) + 0.5f) / static_cast<float>(n) - 1.0f;
+    };
+    return {.origin = glm::vec3(view_.origin),
+            .direction = shading::viewDirection(view_, {coordinate(column, columns_), coordinate(row, rows_)}),
+            .tNear = view_.origin.w};
+  }
+
+  std::uint32_t index(int column, int row) const {
+    return static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns_) + static_cast<std::uint32_t>(column);
+  }
+
+  float conePerMetre() const { return view_.forward.w; }
+
+ private:
+  shading::View view_;
+  int columns_;
+  int rows_;
+};
+
+// One picture: the scene as this call sees it, the settings, and where the rays start.
+struct Rendering {
+  TracedScene scene;
+  const ReferenceSettings& settings;
+  PrimaryRays primaries;
+
+  PathResult sample(const Ray& ray, Sampler& sampler) const {
+    return tracePath(scene, ray, primaries.conePerMetre(), settings.depth, sampler);
+  }
+
+  // All samples of one primary point; returns the number of rays.
+  std::int64_t addPoint(int column, int row, PixelBatches& pixel) const {
+    const Ray ray = primaries.ray(column, row);
+    const std::uint32_t point = primaries.index(column, row);
+    Sampler firstSampler(settings.seed, point, 0);
+    const PathResult first = sample(ray, firstSampler);
+    std::int64_t rays = first.rays;
+    if (!firstSampler.used()) {
+      pixel.addPoint(first.radiance);
+      return rays;
+    }
+    pixel.addPoint(settings.spp, [&](int s) {
+      if (s == 0) return first.radiance;
+      Sampler sampler(settings.seed, point, static_cast<std::uint64_t>(s));
+      const PathResult path = sample(ray, sampler);
+      rays += path.rays;
+      return path.radiance;
+    });
+    return rays;
+  }
+
+  std::int64_t addPixel(int x, int y, std::vector<Image>& batches) const {
+    const int n = settings.samplesPerAxis;
+    PixelBatches pixel(static_cast<int>(batches.size()));
+    std::int64_t rays = 0;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) rays += addPoint(x * n + i, y * n + j, pixel);
+    for (std::size_t b = 0; b < batches.size(); ++b) batches[b](x, y) = pixel.batch(static_cast<int>(b));
+    return rays;
+  }
+};
+
+}  // namespace
+
+struct ReferenceScene::Impl {
+  explicit Impl(std::shared_ptr<const Snapshot> snapshot_) : snapshot(std::move(snapshot_)), embree(*snapshot) {}
+
+  TracedScene without(const std::vector<int>& hidden) const {
+    return {*snapshot, embree, hiddenFlags(*snapshot, hidden)};
+  }
+
+  std::shared_ptr<const Snapshot> snapshot;
+  EmbreeScene embree;
+};
+
+ReferenceScene::ReferenceScene(std::shared_ptr<const Snapshot> snapshot)
+    : impl_(std::make_unique<Impl>(std::move(snapshot))) {}
+ReferenceScene::~ReferenceScene() = default;
+
+ReferenceImage ReferenceScene::render(const shading::View& view, int widthPx, int heightPx,
+                                      const ReferenceSettings& settings, const std::atomic<bool>* cancelled) const {
+  checkSize(widthPx, heightPx, settings.samplesPerAxis);
+  checkSampling(settings);
+  checkDepth(settings);
+  const int n = settings.samplesPerAxis;
+  const Rendering rendering{impl_->without(settings.hiddenInstances), settings,
+                            PrimaryRays(view, widthPx * n, heightPx * n)};
+  ReferenceImage image;
+  image.batches.assign(static_cast<std::size_t>(std::min(settings.spp, kMaxBatches)), Image(widthPx, heightPx));
+  std::atomic<std::int64_t> rays = 0;  // of whole numbers: the order of adding doesn't matter
+  forEachTile(widthPx, heightPx, cancelled, [&](const Tile& tile) {
+    std::int64_t tileRays = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) tileRays += rendering.addPixel(x, y, image.batches);
+    rays += tileRays;
+  });
+  image.raysTraced = rays;
+  return image;
+}
+
+Grid<SampleId> ReferenceScene::renderIds(const shading::View& view, int widthPx, int heightPx,
+                                         int samplesPerAxis) const {
+  checkSize(widthPx, heightPx, samplesPerAxis);
+  const TracedScene scene = impl_->without({});
+  Grid<SampleId> ids(widthPx * samplesPerAxis, heightPx * samplesPerAxis);
+  const PrimaryRays primaries(view, ids.width(), ids.height());
+  forEachTile(ids.width(), ids.height(), nullptr, [&](const Tile& tile) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        ids(x, y) = identify(scene, primaries.ray(x, y), primaries.conePerMetre());
+  });
+  return ids;
+}
+
+glm::vec3 ReferenceScene::radiance(glm::vec3 origin, glm::vec3 direction, const ReferenceSettings& settings,
+                                   std::uint64_t sample) const {
+  checkDepth(settings);
+  Sampler sampler(settings.seed, 0, sample);
+  return tracePath(impl_->without(settings.hiddenInstances), {origin, direction}, 0.0f, settings.depth, sampler)
+      .radiance;
+}
+
+}  // namespace pb

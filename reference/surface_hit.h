@@ -1,0 +1,38 @@
+// What rays meet, and what the surface looks like where they meet it.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "reference/embree_scene.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+
+// The snapshot and its triangles, less the hidden instances.
+struct TracedScene {
+  const Snapshot& snapshot;
+  const EmbreeScene& embree;
+  HiddenInstances hidden;
+
+  std::optional<Hit> intersect(const Ray& ray) const { return embree.intersect(ray, hidden); }
+  const SnapshotInstance& instanceOf(const Hit& hit) const {
+    return snapshot.instances[static_cast<std::size_t>(hit.instance)];
+  }
+  const Material& materialOf(const Hit& hit) const { return snapshot.materialOf(instanceOf(hit)); }
+};
+
+// The vertices' attributes at the hit of a ray in unit direction d. The normal of a double-sided or glass surface is
+// turned to the side from which the ray comes: the triangle's side, not the normal's own, so that a smooth normal that
+// leans away at a silhouette isn't turned.
+SurfaceAttributes interpolate(const TracedScene& scene, const Hit& hit, const glm::vec3& d, float coneWidth);
+
+// The point from which a ray in `direction` goes on, off the triangle by more than the rounding of `position` and of
+// the next intersection, so that neither this triangle nor a neighbour in its plane is met again. Which side it is on
+// is the direction's: see tracePath() for directions that dive under the triangle.
+glm::vec3 offsetOrigin(const TracedScene& scene, const Hit& hit, const glm::vec3& position, const glm::vec3& direction);
+
+// What a primary ray shows.
+SampleId identify(const TracedScene& scene, const Ray& primary, float conePerMetre);
+
+}  // namespace pb
