@@ -1,11 +1,13 @@
 // Image error metrics: pure functions of a reference and a test image. Definitions and tolerances: docs/metrics.md.
 //
 // All take two images of equal, non-zero size and throw an input Error otherwise, or when either holds a NaN or an
-// infinity (the message names the image and the first such pixel). Sums are in double precision and in a fixed order:
-// the same bits for any number of threads.
+// infinity (the message names the image and the first such pixel). A mask has the size of the images and, unless said
+// otherwise, at least one pixel inside; anything else is an input Error too. Sums are in double precision and in a
+// fixed order: the same bits for any number of threads.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,11 +46,12 @@ std::optional<double> computeMsSsim(const Image& reference, const Image& test);
 // FLIP, Andersson et al. 2020 (LDR) and 2021 (HDR).
 enum class ToneMapper { aces, hable, reinhard };
 
+// Values outside of the given ranges, and a start exposure above the stop exposure, are input Errors.
 struct FlipSettings {
-  double ppd = 67.02064327658225;  // pixels per degree: 0.7 m from a 0.7 m wide 3840 pixel monitor
+  double ppd = 67.02064327658225;  // pixels per degree, 1 to 1000: 0.7 m from a 0.7 m wide 3840 pixel monitor
   ToneMapper toneMapper = ToneMapper::aces;
-  std::optional<double> startExposure, stopExposure;  // HDR; otherwise from the reference
-  std::optional<int> numExposures;
+  std::optional<double> startExposure, stopExposure;  // HDR, stops, -120 to 120; otherwise from the reference
+  std::optional<int> numExposures;                    // HDR, 1 to 1000; otherwise max(2, ceil(stop - start))
 };
 
 struct FlipResult {
@@ -62,18 +65,22 @@ struct FlipResult {
 // Linear inputs, clamped to [0,1].
 FlipResult computeFlipLdr(const Image& reference, const Image& test, const FlipSettings& settings = {});
 
-// Linear inputs, negatives clamped to 0. Where the reference's median luminance is 0 and no stop exposure is given, the
-// median of the positive luminances takes its place; a reference without any positive luminance uses exposure 0 alone
-// twice.
+// Linear inputs, negatives clamped to 0. The exposures that are not given come from the reference's largest and median
+// luminance and are clamped to -120 to 120 stops. A median of 0 (at least half of the reference is black) is replaced
+// by the median of the positive luminances, because the stop exposure would be infinite; a reference without any
+// positive luminance has both exposures at 0, or both at the one that is given.
 FlipResult computeFlipHdr(const Image& reference, const Image& test, const FlipSettings& settings = {});
 
+// Pooled values of a map: the mean is the recommended single number. A weighted percentile p is the first of the
+// ascending values at which their running sum exceeds p times their total; 0 for a map of zeros.
 struct FlipPooled {
   double mean = 0, weightedQ1 = 0, weightedMedian = 0, weightedQ3 = 0, min = 0, max = 0;
 };
 FlipPooled poolFlip(const Plane& map, const Mask* mask = nullptr);
 
-// Everything `compare` prints and results.json holds. FLIP and SSIM maps are made of whole images, then averaged over
-// the mask.
+// Everything `compare` prints and results.json holds: one number per metric through metricTable(), and the pooled
+// values and settings of FLIP as members. FLIP and SSIM maps are made of whole images, then averaged over the mask;
+// MS-SSIM is not defined on a mask, hence absent there.
 struct Metrics {
   ErrorSums sums;
   std::optional<Ssim> ssim;
@@ -90,7 +97,7 @@ struct MetricsInput {
   const Image& reference;  // scene-referred linear, or sRGB-encoded values if srgb is set
   const Image& test;
   bool srgb = false;    // 8-bit values: sums and SSIM on encoded values, LDR-FLIP on decoded ones, no HDR-FLIP
-  double exposure = 0;  // stops applied before LDR-FLIP, PSNR and SSIM
+  double exposure = 0;  // stops applied before LDR-FLIP, PSNR, SSIM and MS-SSIM; no effect on sRGB values
   bool clampForDisplay =
       false;  // PSNR and SSIM on values clamped to [0,1] after exposure, as tables do; `compare` never does
   FlipSettings flip{};
@@ -101,6 +108,27 @@ struct MetricsResult {
   Plane flipLdrMap, flipHdrMap;   // flipHdrMap empty for 8-bit input
 };
 MetricsResult computeMetrics(const MetricsInput& input, const Mask* mask = nullptr);
+
+// What MetricsInput holds beside the images.
+struct MetricsSettings {
+  bool srgb = false;
+  double exposure = 0;
+  bool clampForDisplay = false;
+  FlipSettings flip{};
+};
+
+// Scores many test images against one reference: the values of computeMetrics, bit for bit, with the reference's side
+// of both FLIPs done once. That side takes 20 bytes per pixel and exposure; where this is more than 512 MiB it is not
+// kept but recomputed. Immutable: compare() may be called from several threads at once, copies share the content.
+class MetricsReference {
+ public:
+  explicit MetricsReference(const Image& reference, const MetricsSettings& settings = {});
+  MetricsResult compare(const Image& test, const Mask* mask = nullptr) const;
+
+ private:
+  struct Prepared;
+  std::shared_ptr<const Prepared> prepared_;
+};
 
 // Error maps as pictures: magma for errors, viridis for exposures (matplotlib's CC0 colour maps). Values encoded as
 // shown.
