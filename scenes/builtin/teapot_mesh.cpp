@@ -127,7 +127,7 @@ Mesh makeTeapotMesh(int segments) {
   const std::array<glm::vec2, 4> axes = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   for (const Profile& profile : kProfiles)
     for (std::size_t quarter = 0; quarter < 4; ++quarter)
-      appendPatch(mesh, quarterOf(profile, axes[(quarter + 1) % 4], axes[quarter]), segments);
+      appendPatch(mesh, quarterOf(profile, axes[quarter], axes[(quarter + 1) % 4]), segments);
   for (const BezierPatch& patch : kHalfPatches) appendHalves(mesh, patch, segments);
   return mesh;
 }
