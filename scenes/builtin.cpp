@@ -12,7 +12,7 @@ Scene makeTeapotScene(SpecReader& parameters);
 
 const std::vector<BuiltinScene>& builtinScenes() {
   static const std::vector<BuiltinScene> table = {
-      {"control", "",
+      {"control", "textures = 1 or 0 for plain colours and no normal maps, default 1",
        "No specular surface at all: many shapes, textures, normal maps and transforms under three lights.",
        makeControlScene},
       {"mirrors", "count = mirror balls on the ring, 1 to 64, default 5",

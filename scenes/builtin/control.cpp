@@ -151,9 +151,15 @@ void addLight(Scene& scene, const char* name, float kind, glm::vec3 position, gl
   scene.nodes.push_back(std::move(node));
 }
 
+void removeTextures(Material& material) {
+  material.baseColorTexture = material.normalTexture = -1;
+  material.constants.baseColorSlot.offset.w = material.constants.normalSlot.offset.w = 0.0f;
+}
+
 }  // namespace
 
-Scene makeControlScene(SpecReader& /*parameters*/) {
+Scene makeControlScene(SpecReader& parameters) {
+  const bool textures = parameters.integer("textures", 0, 1, 1) == 1;
   Scene scene;
   addTexturedShapes(scene);
   addPlainShapes(scene);
@@ -162,6 +168,8 @@ Scene makeControlScene(SpecReader& /*parameters*/) {
   addLight(scene, "Spot", shading::kLightSpot, {3.0f, 4.0f, 2.0f}, {1.0f, 0.0f, 0.0f}, {10.0f, 14.0f, 18.0f});
   addCamera(scene, "Camera", {0.8f, 2.6f, 6.4f}, {0.0f, 0.8f, 0.0f}, glm::radians(42.0f), 0.1f);
   scene.environment = makeProceduralSky();
+  if (!textures)
+    for (Material& material : scene.materials) removeTextures(material);
   return scene;
 }
 

@@ -1,0 +1,83 @@
+// The control: a scene in which nothing is approximated must be the same picture in both renderers.
+#include "bench/certify.h"
+#include "bench/certify/common.h"
+#include "bench/metrics/metrics.h"
+#include "scenes/builtin.h"
+
+namespace pb {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 180;
+constexpr int kSamples = 4;
+
+// Pixels in which some sample shows something else in one renderer than in the other.
+struct Disagreement {
+  Mask kept;               // pixels in which all samples agree
+  double otherObject = 0;  // share of all pixels
+  double any = 0;          // another object, smoothing group or nearest texel
+};
+
+Disagreement compareIds(const Grid<SampleId>& raster, const Grid<SampleId>& reference) {
+  Disagreement result;
+  result.kept = Mask(kWidth, kHeight, 1);
+  int objects = 0, all = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      bool otherObject = false, other = false;
+      for (int j = 0; j < kSamples; ++j)
+        for (int i = 0; i < kSamples; ++i) {
+          const SampleId& a = raster(x * kSamples + i, y * kSamples + j);
+          const SampleId& b = reference(x * kSamples + i, y * kSamples + j);
+          otherObject |= a.instance != b.instance;
+          other |= a != b;
+        }
+      objects += otherObject;
+      all += other;
+      if (other) result.kept(x, y) = 0;
+    }
+  const double pixels = static_cast<double>(kWidth) * kHeight;
+  result.otherObject = objects / pixels;
+  result.any = all / pixels;
+  return result;
+}
+
+// Bounds of the design: relMSE <= 1e-6 untextured and 1e-5 textured, LDR-FLIP mean <= 1e-3, at most 0.05 % of the
+// pixels left out for showing another object and 0.2 % in all.
+std::vector<Check> compareControl(RasterDevice& device, const std::string& name, const Spec& spec, double relmseBound) {
+  auto scene = std::make_shared<const Scene>(makeBuiltinScene(spec));
+  const std::shared_ptr<const Snapshot> snapshot =
+      makeSnapshot(std::move(scene), 0, "", static_cast<double>(kWidth) / kHeight);
+  RasterSequence sequence(device, Technique{}, kWidth, kHeight, kSamples);
+  sequence.renderFrame(*snapshot);
+  const Image raster = sequence.readImage();
+
+  const ReferenceScene referenceScene(snapshot);
+  ReferenceSettings settings;
+  settings.samplesPerAxis = kSamples;
+  settings.spp = 2;
+  const Image reference = referenceScene.render(snapshot->camera, kWidth, kHeight, settings).mean();
+  const Disagreement ids =
+      compareIds(sequence.renderIds(*snapshot), referenceScene.renderIds(snapshot->camera, kWidth, kHeight, kSamples));
+
+  const ErrorSums sums = computeErrorSums(reference, raster, &ids.kept);
+  const double flip = poolFlip(computeFlipLdr(reference, raster).map, &ids.kept).mean;
+  const std::string subject = "raster vs reference";
+  return {
+      {name, subject, "relMSE", sums.relmse, 0.0, relmseBound},
+      {name, subject, "LDR-FLIP mean", flip, 0.0, 1e-3},
+      {name, subject, "share of pixels with another object", ids.otherObject, 0.0, 5e-4},
+      {name, subject, "share of pixels left out", ids.any, 0.0, 2e-3},
+  };
+}
+
+}  // namespace
+
+std::vector<Check> certifyControl(RasterDevice& device) {
+  std::vector<Check> checks = compareControl(device, "control, untextured", {"control", {{"textures", "0"}}}, 1e-6);
+  for (Check& check : compareControl(device, "control, textured", {"control", {}}, 1e-5))
+    checks.push_back(std::move(check));
+  return checks;
+}
+
+}  // namespace pb
