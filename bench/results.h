@@ -20,6 +20,9 @@ std::optional<double> metricValue(const Metrics& metrics, const std::string& key
 
 inline constexpr int kResultsSchemaVersion = 1;
 
+// Provenance::controlOutcome of a run whose control passed; anything else says why not.
+inline constexpr char kControlPassed[] = "passed";
+
 // Circumstances of a run. Everything that a reader needs to judge or repeat a number.
 struct Provenance {
   std::string toolVersion, gitHash, suiteName, suiteHash;
@@ -32,7 +35,7 @@ struct Provenance {
   // Image size, samples, reference depth and noise, ... as the reader should see them: name -> value, in print order.
   std::vector<std::pair<std::string, std::string>> settings;
   std::uint64_t seed = 0;
-  std::string controlOutcome;  // "passed" or why not; of `certify`'s control, run before the suite
+  std::string controlOutcome;  // kControlPassed or why not; of `certify`'s control, run before the suite
 };
 
 // Some metrics by their keys (see metricTable()).

@@ -1,0 +1,164 @@
+#include "bench/baseline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <set>
+
+#include "bench/results_json.h"
+#include "results/schema/baseline.schema.h"
+#include "scenes/error.h"
+#include "scenes/files.h"
+
+namespace pb {
+namespace {
+
+constexpr DocumentFormat kFormat{"baseline", "baseline_version", kBaselineSchemaVersion, schemas::kBaseline};
+
+GatedMetrics gatedMetrics(const Metrics& metrics, const Tolerances& tolerance) {
+  GatedMetrics gated;
+  for (const auto& [key, limit] : tolerance) gated.emplace_back(key, metricValue(metrics, key));
+  return gated;
+}
+
+BaselineCell makeCell(const CellResult& cell, const Tolerances& tolerance) {
+  BaselineCell made{cell.key(), gatedMetrics(cell.metrics, tolerance), std::nullopt, cell.counters};
+  if (cell.maskMetrics) made.maskMetrics = gatedMetrics(*cell.maskMetrics, tolerance);
+  return made;
+}
+
+Json toJsonObject(const GatedMetrics& metrics) {
+  Json json = Json::object();
+  for (const auto& [key, value] : metrics) json[key] = value ? encodeNumber(*value) : nullptr;
+  return json;
+}
+
+GatedMetrics gatedMetricsFromJson(const Json& json) {
+  GatedMetrics metrics;
+  for (const auto& [key, value] : json.items())
+    metrics.emplace_back(key, value.is_null() ? std::nullopt : std::optional(decodeNumber(value)));
+  return metrics;
+}
+
+Json toJsonObject(const BaselineCell& cell) {
+  Json json;
+  json["key"] = cell.key;
+  json["metrics"] = toJsonObject(cell.metrics);
+  json["mask_metrics"] = cell.maskMetrics ? toJsonObject(*cell.maskMetrics) : nullptr;
+  json["counters"] = toJsonObject(cell.counters);
+  return json;
+}
+
+BaselineCell baselineCellFromJson(const Json& json) {
+  BaselineCell cell{json.at("key").get<std::string>(), gatedMetricsFromJson(json.at("metrics")), std::nullopt,
+                    countersFromJson(json.at("counters"))};
+  if (const Json& mask = json.at("mask_metrics"); !mask.is_null()) cell.maskMetrics = gatedMetricsFromJson(mask);
+  return cell;
+}
+
+Json toJsonObject(const BaselineCost& cost) {
+  return {{"ratio", cost.ratio}, {"ratio_low", cost.ratioLow}, {"ratio_high", cost.ratioHigh}};
+}
+
+BaselineCost baselineCostFromJson(const Json& json) {
+  return {json.at("ratio").get<double>(), json.at("ratio_low").get<double>(), json.at("ratio_high").get<double>()};
+}
+
+// A metric that was edited out of one cell would silently not be compared.
+void requireGatedMetrics(const GatedMetrics& metrics, const Baseline& baseline, const BaselineCell& cell,
+                         const std::string& place) {
+  const auto keyOf = [](const auto& pair) { return pair.first; };
+  if (!std::ranges::equal(metrics, baseline.tolerance, {}, keyOf, keyOf))
+    throwInputError("a baseline cell holds exactly the metrics that have a tolerance, '{}' does not in cell '{}'",
+                    place, cell.key);
+}
+
+void requireConsistent(const Baseline& baseline, const std::string& place) {
+  for (const auto& [key, limit] : baseline.tolerance) metricValue({}, key);
+  std::set<std::string> keys;
+  for (const BaselineCell& cell : baseline.cells) {
+    if (!keys.insert(cell.key).second) throwInputError("a cell may stand once in '{}', twice: {}", place, cell.key);
+    requireGatedMetrics(cell.metrics, baseline, cell, place);
+    if (cell.maskMetrics) requireGatedMetrics(*cell.maskMetrics, baseline, cell, place);
+  }
+}
+
+std::string utcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+void requireSameDriver(const Provenance& run, const std::string& baselinePath) {
+  const Provenance old = readBaseline(baselinePath).provenance;
+  if (!sameDriver(run, old))
+    throwInputError("baseline '{}' was made with '{}' ({}), the run with '{}' ({}): --force replaces it", baselinePath,
+                    old.glRenderer, old.glVersion, run.glRenderer, run.glVersion);
+}
+
+void requireBlessable(const Results& run, const std::string& reason) {
+  if (reason.find_first_not_of(" \t\r\n") == std::string::npos)
+    throwInputError("a blessing needs a reason, got '{}'", reason);
+  if (run.cells.empty())
+    throwInputError("a run without cells can't become a baseline, suite '{}'", run.provenance.suiteName);
+  if (run.provenance.controlOutcome != kControlPassed)
+    throwInputError("a run whose control did not pass can't become a baseline, its control: {}",
+                    run.provenance.controlOutcome);
+}
+
+}  // namespace
+
+bool sameDriver(const Provenance& a, const Provenance& b) {
+  return a.glRenderer == b.glRenderer && a.glVersion == b.glVersion;
+}
+
+Baseline makeBaseline(const Results& run, const std::string& reason, const std::string& blessedAt) {
+  Baseline baseline{reason, blessedAt, run.provenance, run.tolerance, {}, {}};
+  for (const CellResult& cell : run.cells) {
+    baseline.cells.push_back(makeCell(cell, run.tolerance));
+    if (cell.cost) baseline.costs[cell.sequenceKey()] = {cell.cost->ratio, cell.cost->ratioLow, cell.cost->ratioHigh};
+  }
+  return baseline;
+}
+
+std::string toJson(const Baseline& baseline) {
+  Json head;
+  head["baseline_version"] = kBaselineSchemaVersion;
+  head["reason"] = baseline.reason;
+  head["blessed_at"] = baseline.blessedAt;
+  head["provenance"] = toJsonObject(baseline.provenance);
+  head["tolerance"] = toJsonObject(baseline.tolerance);
+  head["costs"] = Json::object();
+  for (const auto& [sequence, cost] : baseline.costs) head["costs"][sequence] = toJsonObject(cost);
+  std::vector<Json> rows;
+  for (const BaselineCell& cell : baseline.cells) rows.push_back(toJsonObject(cell));
+  return printDocument(head, "cells", rows);
+}
+
+Baseline baselineFromJson(const std::string& text, const std::string& place) {
+  const Json document = parseDocument(text, place, kFormat);
+  Baseline baseline;
+  baseline.reason = document.at("reason").get<std::string>();
+  baseline.blessedAt = document.at("blessed_at").get<std::string>();
+  baseline.provenance = provenanceFromJson(document.at("provenance"));
+  baseline.tolerance = tolerancesFromJson(document.at("tolerance"));
+  for (const auto& [sequence, cost] : document.at("costs").items())
+    baseline.costs[sequence] = baselineCostFromJson(cost);
+  for (const Json& cell : document.at("cells")) baseline.cells.push_back(baselineCellFromJson(cell));
+  requireConsistent(baseline, place);
+  return baseline;
+}
+
+Baseline readBaseline(const std::string& path) { return baselineFromJson(readFile(path), path); }
+
+void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force) {
+  requireBlessable(run, reason);
+  if (!force && std::filesystem::exists(baselinePath)) requireSameDriver(run.provenance, baselinePath);
+  writeFileAtomically(baselinePath, toJson(makeBaseline(run, reason, utcNow())));
+}
+
+}  // namespace pb

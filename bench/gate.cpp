@@ -1,0 +1,227 @@
+#include "bench/gate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+const std::optional<double> kAbsent;
+
+// A finding about presence, for which no size of change is defined.
+Finding makeFinding(FindingKind kind, const std::string& cell, const std::string& quantity) {
+  return {kind, cell, quantity, kAbsent, kAbsent, 0, kInfinity};
+}
+
+double excessOf(double delta, double limit) { return limit > 0 ? delta / limit : kInfinity; }
+
+bool isUndefined(const std::optional<double>& value) { return !value || std::isnan(*value); }
+
+// |after - before| <= limit, where undefined equals undefined only and an infinity equals itself only.
+bool isWithin(const std::optional<double>& before, const std::optional<double>& after, double limit) {
+  if (isUndefined(before) || isUndefined(after)) return isUndefined(before) && isUndefined(after);
+  if (std::isinf(*before) || std::isinf(*after)) return *before == *after;
+  return std::abs(*after - *before) <= limit;
+}
+
+double limitFor(const Tolerance& tolerance, const std::optional<double>& before) {
+  const bool finite = before && std::isfinite(*before);
+  return finite ? largestAllowedDelta(tolerance, *before) : 0.0;
+}
+
+class Comparison {
+ public:
+  Comparison(const Results& run, const Baseline& baseline) : run_(run), baseline_(baseline) {
+    for (const CellResult& cell : run.cells) runCells_[cell.key()] = &cell;
+  }
+
+  GateReport make() {
+    compareControl();
+    compareCells();
+    findSurplus();
+    compareCosts();
+    noteDifferences();
+    conclude();
+    return std::move(report_);
+  }
+
+ private:
+  void compareControl() {
+    const std::string& outcome = run_.provenance.controlOutcome;
+    if (outcome != kControlPassed) report_.findings.push_back(makeFinding(FindingKind::control, "", outcome));
+  }
+
+  void compareCells() {
+    for (const BaselineCell& before : baseline_.cells) {
+      report_.cells.push_back(before.key);
+      const auto found = runCells_.find(before.key);
+      if (found == runCells_.end())
+        report_.findings.push_back(makeFinding(FindingKind::missing, before.key, "cell"));
+      else
+        compareCell(before, *found->second);
+    }
+  }
+
+  void compareCell(const BaselineCell& before, const CellResult& after) {
+    compareMetrics(before.key, "", before.metrics, after.metrics);
+    if (before.maskMetrics && after.maskMetrics)
+      compareMetrics(before.key, "mask ", *before.maskMetrics, *after.maskMetrics);
+    else if (before.maskMetrics || after.maskMetrics)
+      report_.findings.push_back(
+          makeFinding(before.maskMetrics ? FindingKind::missing : FindingKind::surplus, before.key, "mask"));
+    if (sameDriver(run_.provenance, baseline_.provenance)) compareCounters(before, after);
+  }
+
+  // Both lists stand in the order of the tolerances.
+  void compareMetrics(const std::string& cell, const std::string& region, const GatedMetrics& before,
+                      const Metrics& after) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const auto& [key, value] = before[i];
+      compareMetric(cell, region + key, value, metricValue(after, key), limitFor(baseline_.tolerance[i].second, value));
+    }
+  }
+
+  void compareMetric(const std::string& cell, const std::string& quantity, const std::optional<double>& before,
+                     const std::optional<double>& after, double limit) {
+    ++report_.metricsCompared;
+    if (isWithin(before, after, limit)) return;
+    const bool finite = before && after && std::isfinite(*before) && std::isfinite(*after);
+    const double excess = finite ? excessOf(std::abs(*after - *before), limit) : kInfinity;
+    report_.findings.push_back({FindingKind::changed, cell, quantity, before, after, limit, excess});
+  }
+
+  void compareCounters(const BaselineCell& before, const CellResult& after) {
+    const std::map<std::string, std::int64_t> old(before.counters.begin(), before.counters.end());
+    const std::map<std::string, std::int64_t> now(after.counters.begin(), after.counters.end());
+    std::set<std::string> names;
+    for (const auto& [name, value] : old) names.insert(name);
+    for (const auto& [name, value] : now) names.insert(name);
+    for (const std::string& name : names) {
+      ++report_.countersCompared;
+      compareCounter(before.key, name, old, now);
+    }
+  }
+
+  void compareCounter(const std::string& cell, const std::string& name, const std::map<std::string, std::int64_t>& old,
+                      const std::map<std::string, std::int64_t>& now) {
+    const auto valueIn = [&](const auto& counters) {
+      const auto found = counters.find(name);
+      return found == counters.end() ? std::nullopt : std::optional(found->second);
+    };
+    const std::optional<std::int64_t> before = valueIn(old), after = valueIn(now);
+    if (before == after) return;
+    const auto asDouble = [](std::optional<std::int64_t> value) {
+      return value ? std::optional(static_cast<double>(*value)) : std::nullopt;
+    };
+    report_.findings.push_back({FindingKind::counter, cell, name, asDouble(before), asDouble(after), 0, kInfinity});
+  }
+
+  void findSurplus() {
+    std::set<std::string> known(report_.cells.begin(), report_.cells.end());
+    for (const CellResult& cell : run_.cells) {
+      if (known.contains(cell.key())) continue;
+      report_.cells.push_back(cell.key());
+      report_.findings.push_back(makeFinding(FindingKind::surplus, cell.key(), "cell"));
+    }
+  }
+
+  std::map<std::string, const CostResult*> costsOfRun() const {
+    std::map<std::string, const CostResult*> costs;
+    for (const CellResult& cell : run_.cells)
+      if (cell.cost) costs.emplace(cell.sequenceKey(), &*cell.cost);
+    return costs;
+  }
+
+  // Why ratios of run and baseline can't be compared; empty if they can.
+  std::string costObstacle(bool measured) const {
+    const Provenance &now = run_.provenance, &old = baseline_.provenance;
+    if (baseline_.costs.empty()) return measured ? "the baseline holds none" : "neither side measured it";
+    if (!measured) return "this run did not measure it";
+    if (!sameDriver(now, old)) return "the GL driver differs";
+    if (now.cpu != old.cpu) return fmt::format("the CPU is '{}', was '{}'", now.cpu, old.cpu);
+    if (now.threads != old.threads) return fmt::format("threads are {}, were {}", now.threads, old.threads);
+    return "";
+  }
+
+  void compareCosts() {
+    const std::map<std::string, const CostResult*> costs = costsOfRun();
+    if (const std::string obstacle = costObstacle(!costs.empty()); !obstacle.empty())
+      return report_.notes.push_back(fmt::format("Cost was not compared: {}.", obstacle));
+    for (const auto& [sequence, before] : baseline_.costs) {
+      const auto found = costs.find(sequence);
+      if (found == costs.end())
+        report_.findings.push_back(makeFinding(FindingKind::missing, sequence, "cost"));
+      else
+        compareCost(sequence, before, *found->second);
+    }
+  }
+
+  void compareCost(const std::string& sequence, const BaselineCost& before, const CostResult& after) {
+    ++report_.costsCompared;
+    const double limit = costLimit(before.ratio, after);
+    const double delta = std::abs(after.ratio - before.ratio);
+    const bool overlap = after.ratioLow <= before.ratioHigh && before.ratioLow <= after.ratioHigh;
+    if (overlap || delta <= limit) return;
+    report_.findings.push_back(
+        {FindingKind::cost, sequence, "cost ratio", before.ratio, after.ratio, limit, excessOf(delta, limit)});
+  }
+
+  // As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline.
+  static double costLimit(double before, const CostResult& after) {
+    const double relative = after.ratio > before ? kCostRelativeFloor : kCostRelativeFloor / (1 + kCostRelativeFloor);
+    const double absolute = after.plainMs > 0 ? kCostAbsoluteFloorMs / after.plainMs : kInfinity;
+    return std::max(relative * before, absolute);
+  }
+
+  void noteDifferences() {
+    const Provenance &now = run_.provenance, &old = baseline_.provenance;
+    if (!sameDriver(now, old))
+      report_.notes.push_back(
+          fmt::format("Drift: counters were not compared, the baseline was made with '{}' ({}), "
+                      "this run with '{}' ({}).",
+                      old.glRenderer, old.glVersion, now.glRenderer, now.glVersion));
+    if (now.suiteHash != old.suiteHash) report_.notes.push_back("The suite has changed since the baseline.");
+    for (const auto& [scene, hash] : now.sceneHashes)
+      if (const auto found = old.sceneHashes.find(scene); found != old.sceneHashes.end() && found->second != hash)
+        report_.notes.push_back(fmt::format("The content of scene '{}' has changed since the baseline.", scene));
+  }
+
+  // A metric out of its tolerance fails on any driver; on another driver the exact half of the gate is missing.
+  void conclude() {
+    std::ranges::stable_sort(report_.findings, std::ranges::greater{}, &Finding::excess);
+    if (!report_.findings.empty())
+      report_.verdict = Verdict::fail;
+    else if (!sameDriver(run_.provenance, baseline_.provenance))
+      report_.verdict = Verdict::drift;
+  }
+
+  const Results& run_;
+  const Baseline& baseline_;
+  std::map<std::string, const CellResult*> runCells_;
+  GateReport report_;
+};
+
+}  // namespace
+
+GateReport check(const Results& run, const Baseline& baseline) { return Comparison(run, baseline).make(); }
+
+int exitCode(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return 0;
+    case Verdict::fail:
+      return static_cast<int>(Failure::verdict);
+    case Verdict::drift:
+      return static_cast<int>(Failure::inconclusive);
+  }
+  return static_cast<int>(Failure::verdict);
+}
+
+}  // namespace pb

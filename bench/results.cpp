@@ -1,0 +1,116 @@
+#include "bench/results.h"
+
+#include <algorithm>
+
+#include "bench/results_json.h"
+#include "scenes/error.h"
+#include "scenes/files.h"
+#include "scenes/spec.h"
+
+namespace pb {
+namespace {
+
+std::vector<std::string> metricKeys() {
+  std::vector<std::string> keys;
+  for (const MetricInfo& metric : metricTable()) keys.push_back(metric.key);
+  return keys;
+}
+
+// Cells of one run may have different axes (`--set` on one shard): the union, in the order of first use.
+std::vector<std::string> axesOf(const std::vector<CellResult>& cells) {
+  std::vector<std::string> axes;
+  for (const CellResult& cell : cells)
+    for (const auto& [axis, value] : cell.technique)
+      if (std::ranges::find(axes, axis) == axes.end()) axes.push_back(axis);
+  return axes;
+}
+
+std::string axisValue(const CellResult& cell, const std::string& axis) {
+  const auto found = std::ranges::find(cell.technique, axis, [](const auto& pair) { return pair.first; });
+  return found == cell.technique.end() ? "" : found->second;
+}
+
+std::string axesText(const CellResult& cell) {
+  std::string text;
+  for (const auto& [axis, value] : cell.technique) text += fmt::format(" {}={}", axis, value);
+  return text;
+}
+
+// RFC 4180.
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string csvValue(const Json& value) {
+  if (value.is_null()) return "";
+  return csvField(value.is_string() ? value.get<std::string>() : printLine(value));
+}
+
+// One row for each number in `value`; nested keys are joined by points: flip_hdr.mean.
+void appendRows(const std::string& prefix, const std::string& name, const Json& value, std::string& csv) {
+  if (!value.is_structured()) {
+    csv += prefix + csvField(name) + ',' + csvValue(value) + '\n';
+    return;
+  }
+  for (const auto& [key, child] : value.items())
+    appendRows(prefix, name.empty() ? key : fmt::format("{}.{}", name, key), child, csv);
+}
+
+struct Region {
+  const char* jsonKey;
+  const char* name;
+  const char* metric;  // name of the value where the JSON holds a bare array
+};
+
+constexpr Region kRegions[] = {
+    {"metrics", "whole", ""},     {"mask_metrics", "mask", ""},
+    {"floor", "floor", ""},       {"mask_floor", "mask_floor", ""},
+    {"unbiased", "unbiased", ""}, {"cost", "cost", ""},
+    {"counters", "counter", ""},  {"face_age_frames", "probe", "face_age_frames"},
+};
+
+void appendCell(const CellResult& cell, const std::vector<std::string>& axes, std::string& csv) {
+  std::string prefix = fmt::format("{},{},{},", csvField(cell.scene), csvField(cell.camera), cell.frame);
+  for (const std::string& axis : axes) prefix += csvField(axisValue(cell, axis)) + ',';
+  const Json json = toJsonObject(cell);
+  for (const Region& region : kRegions) {
+    const Json& values = json.at(region.jsonKey);
+    if (!values.is_null()) appendRows(fmt::format("{}{},", prefix, region.name), region.metric, values, csv);
+  }
+}
+
+}  // namespace
+
+std::optional<double> metricValue(const Metrics& metrics, const std::string& key) {
+  const auto& table = metricTable();
+  const auto found = std::ranges::find(table, key, &MetricInfo::key);
+  if (found == table.end()) throwInputError("metric {}", unknownMessage(key, metricKeys()));
+  return found->value(metrics);
+}
+
+std::string CellResult::sequenceKey() const {
+  return fmt::format("scene={} camera={}{}", scene, camera, axesText(*this));
+}
+
+std::string CellResult::key() const {
+  return fmt::format("scene={} camera={} frame={}{}", scene, camera, frame, axesText(*this));
+}
+
+Results readResults(const std::string& runDirectory) {
+  const std::string path = runDirectory + "/results.json";
+  return resultsFromJson(readFile(path), path);
+}
+
+std::string toCsv(const Results& results) {
+  const std::vector<std::string> axes = axesOf(results.cells);
+  std::string csv = "scene,camera,frame,";
+  for (const std::string& axis : axes) csv += csvField(axis) + ',';
+  csv += "region,metric,value\n";
+  for (const CellResult& cell : results.cells) appendCell(cell, axes, csv);
+  return csv;
+}
+
+}  // namespace pb

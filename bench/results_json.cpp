@@ -1,0 +1,214 @@
+#include "bench/results_json.h"
+
+#include <set>
+
+#include "bench/metrics/metrics_json.h"
+#include "results/schema/results.schema.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+constexpr DocumentFormat kFormat{"results", "schema_version", kResultsSchemaVersion, schemas::kResults};
+
+template <class T, class Value>
+struct Field {
+  const char* key;
+  Value T::*member;
+};
+
+constexpr Field<Provenance, std::string> kProvenanceTexts[] = {
+    {"tool_version", &Provenance::toolVersion}, {"git_hash", &Provenance::gitHash},
+    {"suite_name", &Provenance::suiteName},     {"suite_hash", &Provenance::suiteHash},
+    {"started_at", &Provenance::startedAt},     {"cpu", &Provenance::cpu},
+    {"gl_backend", &Provenance::glBackend},     {"gl_renderer", &Provenance::glRenderer},
+    {"gl_version", &Provenance::glVersion},     {"control_outcome", &Provenance::controlOutcome},
+};
+
+constexpr Field<CostResult, double> kCostNumbers[] = {
+    {"frame_ms", &CostResult::frameMs},
+    {"frame_ms_low", &CostResult::frameMsLow},
+    {"frame_ms_high", &CostResult::frameMsHigh},
+    {"plain_ms", &CostResult::plainMs},
+    {"ratio", &CostResult::ratio},
+    {"ratio_low", &CostResult::ratioLow},
+    {"ratio_high", &CostResult::ratioHigh},
+    {"final_ms", &CostResult::finalMs},
+    {"renders_per_frame", &CostResult::rendersPerFrame},
+    {"measured_renders_per_frame", &CostResult::measuredRendersPerFrame},
+};
+
+// Any range of (name, value) pairs as an object, and back.
+template <class Pairs>
+Json objectOf(const Pairs& pairs) {
+  Json json = Json::object();
+  for (const auto& [name, value] : pairs) json[name] = value;
+  return json;
+}
+
+template <class Value>
+std::vector<std::pair<std::string, Value>> pairsOf(const Json& json) {
+  std::vector<std::pair<std::string, Value>> pairs;
+  for (const auto& [name, value] : json.items()) pairs.emplace_back(name, value.template get<Value>());
+  return pairs;
+}
+
+Json toJsonObject(const MetricValues& values) {
+  Json json = Json::object();
+  for (const auto& [key, value] : values) json[key] = encodeNumber(value);
+  return json;
+}
+
+MetricValues metricValuesFromJson(const Json& json) {
+  MetricValues values;
+  for (const auto& [key, value] : json.items()) values.emplace_back(key, decodeNumber(value));
+  return values;
+}
+
+Json toJsonObject(const Tolerance& tolerance) {
+  if (tolerance.kind == Tolerance::Kind::plain)
+    return {{"absolute", tolerance.absolute}, {"relative", tolerance.relative}};
+  Json children = Json::array();
+  for (const Tolerance& child : tolerance.children) children.push_back(toJsonObject(child));
+  return Json::object({{tolerance.kind == Tolerance::Kind::any ? "any" : "all", children}});
+}
+
+Tolerance toleranceFromJson(const Json& json) {
+  using Kind = Tolerance::Kind;
+  const char* treeKey = json.contains("any") ? "any" : "all";
+  if (!json.contains(treeKey))
+    return {Kind::plain, json.at("absolute").get<double>(), json.at("relative").get<double>(), {}};
+  Tolerance tree{json.contains("any") ? Kind::any : Kind::all, 0, 0, {}};
+  for (const Json& child : json.at(treeKey)) tree.children.push_back(toleranceFromJson(child));
+  return tree;
+}
+
+Json toJsonObject(const std::optional<CostResult>& cost) {
+  if (!cost) return nullptr;
+  Json json;
+  json["repetitions"] = cost->repetitions;
+  for (const auto& field : kCostNumbers) json[field.key] = (*cost).*field.member;
+  json["capture_ms"] = cost->captureMs;
+  json["renders_formula"] = cost->rendersFormula;
+  return json;
+}
+
+std::optional<CostResult> costFromJson(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  CostResult cost;
+  cost.repetitions = json.at("repetitions").get<int>();
+  for (const auto& field : kCostNumbers) cost.*field.member = json.at(field.key).get<double>();
+  cost.captureMs = json.at("capture_ms").get<std::vector<double>>();
+  cost.rendersFormula = json.at("renders_formula").get<std::string>();
+  return cost;
+}
+
+CellResult cellFromJson(const Json& json) {
+  CellResult cell;
+  cell.scene = json.at("scene").get<std::string>();
+  cell.camera = json.at("camera").get<std::string>();
+  cell.frame = json.at("frame").get<int>();
+  cell.technique = pairsOf<std::string>(json.at("technique"));
+  cell.metrics = metricsFromJson(json.at("metrics"));
+  if (const Json& mask = json.at("mask_metrics"); !mask.is_null()) cell.maskMetrics = metricsFromJson(mask);
+  cell.floor = metricValuesFromJson(json.at("floor"));
+  cell.maskFloor = metricValuesFromJson(json.at("mask_floor"));
+  cell.unbiased = metricValuesFromJson(json.at("unbiased"));
+  cell.cost = costFromJson(json.at("cost"));
+  cell.counters = countersFromJson(json.at("counters"));
+  cell.faceAgeFrames = json.at("face_age_frames").get<std::vector<double>>();
+  return cell;
+}
+
+void requireDistinctKeys(const std::vector<CellResult>& cells, const std::string& place) {
+  std::set<std::string> keys;
+  for (const CellResult& cell : cells)
+    if (!keys.insert(cell.key()).second) throwInputError("a cell may stand once in '{}', twice: {}", place, cell.key());
+}
+
+}  // namespace
+
+Json toJsonObject(const Provenance& provenance) {
+  Json json;
+  for (const auto& field : kProvenanceTexts) json[field.key] = provenance.*field.member;
+  json["threads"] = provenance.threads;
+  json["seed"] = provenance.seed;
+  json["settings"] = objectOf(provenance.settings);
+  json["scene_hashes"] = objectOf(provenance.sceneHashes);
+  json["libraries"] = objectOf(provenance.libraries);
+  return json;
+}
+
+Provenance provenanceFromJson(const Json& json) {
+  Provenance provenance;
+  for (const auto& field : kProvenanceTexts) provenance.*field.member = json.at(field.key).get<std::string>();
+  provenance.threads = json.at("threads").get<int>();
+  provenance.seed = json.at("seed").get<std::uint64_t>();
+  provenance.settings = pairsOf<std::string>(json.at("settings"));
+  for (auto& [name, hash] : pairsOf<std::string>(json.at("scene_hashes"))) provenance.sceneHashes[name] = hash;
+  for (auto& [name, version] : pairsOf<std::string>(json.at("libraries"))) provenance.libraries[name] = version;
+  return provenance;
+}
+
+Json toJsonObject(const Tolerances& tolerances) {
+  Json json = Json::object();
+  for (const auto& [metric, tolerance] : tolerances) json[metric] = toJsonObject(tolerance);
+  return json;
+}
+
+Tolerances tolerancesFromJson(const Json& json) {
+  Tolerances tolerances;
+  for (const auto& [metric, tolerance] : json.items()) tolerances.emplace_back(metric, toleranceFromJson(tolerance));
+  return tolerances;
+}
+
+Json toJsonObject(const std::vector<std::pair<std::string, std::int64_t>>& counters) { return objectOf(counters); }
+
+std::vector<std::pair<std::string, std::int64_t>> countersFromJson(const Json& json) {
+  return pairsOf<std::int64_t>(json);
+}
+
+Json toJsonObject(const CellResult& cell) {
+  Json json;
+  json["scene"] = cell.scene;
+  json["camera"] = cell.camera;
+  json["frame"] = cell.frame;
+  json["technique"] = objectOf(cell.technique);
+  json["metrics"] = metricsToJson(cell.metrics);
+  json["mask_metrics"] = cell.maskMetrics ? metricsToJson(*cell.maskMetrics) : nullptr;
+  json["floor"] = toJsonObject(cell.floor);
+  json["mask_floor"] = toJsonObject(cell.maskFloor);
+  json["unbiased"] = toJsonObject(cell.unbiased);
+  json["cost"] = toJsonObject(cell.cost);
+  json["counters"] = toJsonObject(cell.counters);
+  json["face_age_frames"] = cell.faceAgeFrames;
+  return json;
+}
+
+std::string toJson(const CellResult& cell) { return printLine(toJsonObject(cell)); }
+
+CellResult cellFromJson(const std::string& text, const std::string& place) {
+  return cellFromJson(parsePart(text, place, R"({"$ref": "results.schema.json#/definitions/cell"})"));
+}
+
+std::string toJson(const Results& results) {
+  Json head;
+  head["schema_version"] = kResultsSchemaVersion;
+  head["provenance"] = toJsonObject(results.provenance);
+  head["tolerance"] = toJsonObject(results.tolerance);
+  std::vector<Json> rows;
+  for (const CellResult& cell : results.cells) rows.push_back(toJsonObject(cell));
+  return printDocument(head, "cells", rows);
+}
+
+Results resultsFromJson(const std::string& text, const std::string& place) {
+  const Json document = parseDocument(text, place, kFormat);
+  Results results;
+  results.provenance = provenanceFromJson(document.at("provenance"));
+  results.tolerance = tolerancesFromJson(document.at("tolerance"));
+  for (const Json& cell : document.at("cells")) results.cells.push_back(cellFromJson(cell));
+  requireDistinctKeys(results.cells, place);
+  return results;
+}
+
+}  // namespace pb

@@ -1,0 +1,27 @@
+// The parts of results.json that baselines share with it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/json_document.h"
+#include "bench/results.h"
+
+namespace pb {
+
+Json toJsonObject(const Provenance& provenance);
+Provenance provenanceFromJson(const Json& json);
+
+Json toJsonObject(const Tolerances& tolerances);
+Tolerances tolerancesFromJson(const Json& json);
+
+Json toJsonObject(const std::vector<std::pair<std::string, std::int64_t>>& counters);
+std::vector<std::pair<std::string, std::int64_t>> countersFromJson(const Json& json);
+
+// The cell as it stands in results.json.
+Json toJsonObject(const CellResult& cell);
+
+}  // namespace pb

@@ -1,0 +1,63 @@
+#include "bench/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace pb {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|') result += '\\';
+    result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result;
+}
+
+// Bytes of UTF-8 that do not continue a code point.
+std::size_t widthOf(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string padded(const std::string& text, std::size_t width, Align align) {
+  const std::string space(width - widthOf(text), ' ');
+  return align == Align::left ? text + space : space + text;
+}
+
+std::string line(const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
+
+}  // namespace
+
+std::string toMarkdown(const Table& table) {
+  std::vector<std::vector<std::string>> lines(1);
+  for (const Column& column : table.columns) lines[0].push_back(escaped(column.title));
+  for (const auto& row : table.rows) {
+    assert(row.size() == table.columns.size());
+    lines.emplace_back();
+    std::ranges::transform(row, std::back_inserter(lines.back()), escaped);
+  }
+
+  std::vector<std::string> rule;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    std::size_t width = 3;  // of the shortest rule that Markdown knows
+    for (const auto& cells : lines) width = std::max(width, widthOf(cells[c]));
+    for (auto& cells : lines) cells[c] = padded(cells[c], width, table.columns[c].align);
+    rule.push_back(std::string(width - 1, '-') + (table.columns[c].align == Align::left ? '-' : ':'));
+  }
+
+  std::string text = line(lines[0]) + line(rule);
+  for (std::size_t i = 1; i < lines.size(); ++i) text += line(lines[i]);
+  return text;
+}
+
+std::string formatSignificant(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  return fmt::format("{:.{}g}", value, digits);
+}
+
+}  // namespace pb

@@ -1,0 +1,23 @@
+#include "bench/tolerance.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace pb {
+
+double largestAllowedDelta(const Tolerance& tolerance, double baseline) {
+  if (tolerance.kind == Tolerance::Kind::plain)
+    return std::max(tolerance.absolute, tolerance.relative * std::abs(baseline));
+  assert(!tolerance.children.empty());
+  const bool any = tolerance.kind == Tolerance::Kind::any;
+  double limit = any ? 0.0 : std::numeric_limits<double>::infinity();
+  for (const Tolerance& child : tolerance.children) {
+    const double childLimit = largestAllowedDelta(child, baseline);
+    limit = any ? std::max(limit, childLimit) : std::min(limit, childLimit);
+  }
+  return limit;
+}
+
+}  // namespace pb
