@@ -28,7 +28,7 @@ BaselineCell makeCell(const CellResult& cell, const Tolerances& tolerance) {
   return made;
 }
 
-Json toJsonObject(const GatedMetrics& metrics) {
+Json gatedMetricsToJson(const GatedMetrics& metrics) {
   Json json = Json::object();
   for (const auto& [key, value] : metrics) json[key] = value ? encodeNumber(*value) : nullptr;
   return json;
@@ -41,12 +41,12 @@ GatedMetrics gatedMetricsFromJson(const Json& json) {
   return metrics;
 }
 
-Json toJsonObject(const BaselineCell& cell) {
+Json baselineCellToJson(const BaselineCell& cell) {
   Json json;
   json["key"] = cell.key;
-  json["metrics"] = toJsonObject(cell.metrics);
-  json["mask_metrics"] = cell.maskMetrics ? toJsonObject(*cell.maskMetrics) : nullptr;
-  json["counters"] = toJsonObject(cell.counters);
+  json["metrics"] = gatedMetricsToJson(cell.metrics);
+  json["mask_metrics"] = cell.maskMetrics ? gatedMetricsToJson(*cell.maskMetrics) : nullptr;
+  json["counters"] = countersToJson(cell.counters);
   return json;
 }
 
@@ -57,7 +57,7 @@ BaselineCell baselineCellFromJson(const Json& json) {
   return cell;
 }
 
-Json toJsonObject(const BaselineCost& cost) {
+Json baselineCostToJson(const BaselineCost& cost) {
   return {{"ratio", cost.ratio}, {"ratio_low", cost.ratioLow}, {"ratio_high", cost.ratioHigh}};
 }
 
@@ -130,12 +130,12 @@ std::string toJson(const Baseline& baseline) {
   head["baseline_version"] = kBaselineSchemaVersion;
   head["reason"] = baseline.reason;
   head["blessed_at"] = baseline.blessedAt;
-  head["provenance"] = toJsonObject(baseline.provenance);
-  head["tolerance"] = toJsonObject(baseline.tolerance);
+  head["provenance"] = provenanceToJson(baseline.provenance);
+  head["tolerance"] = tolerancesToJson(baseline.tolerance);
   head["costs"] = Json::object();
-  for (const auto& [sequence, cost] : baseline.costs) head["costs"][sequence] = toJsonObject(cost);
+  for (const auto& [sequence, cost] : baseline.costs) head["costs"][sequence] = baselineCostToJson(cost);
   std::vector<Json> rows;
-  for (const BaselineCell& cell : baseline.cells) rows.push_back(toJsonObject(cell));
+  for (const BaselineCell& cell : baseline.cells) rows.push_back(baselineCellToJson(cell));
   return printDocument(head, "cells", rows);
 }
 

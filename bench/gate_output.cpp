@@ -1,4 +1,6 @@
 // The gate's findings as Markdown, JSON and JUnit XML.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -95,7 +97,7 @@ std::string findingsTable(const GateReport& report) {
 
 Json encodeOptional(const std::optional<double>& value) { return value ? encodeNumber(*value) : nullptr; }
 
-Json toJsonObject(const Finding& finding) {
+Json findingToJson(const Finding& finding) {
   Json json;
   json["kind"] = nameOf(finding.kind);
   json["cell"] = finding.cell;
@@ -167,7 +169,7 @@ std::string toJson(const GateReport& report) {
   head["costs_compared"] = report.costsCompared;
   head["notes"] = report.notes;
   std::vector<Json> rows;
-  for (const Finding& finding : report.findings) rows.push_back(toJsonObject(finding));
+  for (const Finding& finding : report.findings) rows.push_back(findingToJson(finding));
   return printDocument(head, "findings", rows);
 }
 

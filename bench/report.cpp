@@ -1,0 +1,428 @@
+#include "bench/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <system_error>
+
+#include "bench/tables.h"
+#include "scenes/error.h"
+#include "scenes/files.h"
+#include "scenes/spec.h"
+
+namespace pb {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+// An error counts as clear of the reference's noise when the noise makes up at most a tenth of it: a relMSE against a
+// noisy reference is on average the true one plus the floor.
+constexpr double kClearOfFloor = 10.0;
+constexpr char kNotClearMark[] = " ~";
+
+// The main error of the tables: perceptual, and defined for scene-referred images.
+constexpr char kMainMetric[] = "flip_hdr";
+constexpr char kFloorMetric[] = "relmse";
+
+enum class Region { whole, mask };
+
+// --- The cells of a run, grouped -----------------------------------------------------------------------------------
+
+// The frames of one technique on one scene.
+using Sequence = std::vector<const CellResult*>;
+
+struct Axis {
+  std::string name;
+  std::vector<std::string> values;  // in the order of the run
+};
+
+// Everything about one scene seen through one camera.
+struct Section {
+  std::vector<Sequence> sequences;
+  std::vector<Axis> axes;  // those with more than one value
+  Axis fixed;              // "axis=value" of the others
+  Region region = Region::whole;
+  bool severalFrames = false;
+};
+
+std::string axisValue(const Sequence& sequence, const std::string& axis) {
+  for (const auto& [name, value] : sequence.front()->technique)
+    if (name == axis) return value;
+  return "";
+}
+
+std::vector<Axis> axesOf(const std::vector<Sequence>& sequences) {
+  std::vector<Axis> axes;
+  for (const Sequence& sequence : sequences)
+    for (const auto& [name, value] : sequence.front()->technique) {
+      auto axis = std::ranges::find(axes, name, &Axis::name);
+      if (axis == axes.end()) axis = axes.insert(axes.end(), Axis{name, {}});
+      if (std::ranges::find(axis->values, value) == axis->values.end()) axis->values.push_back(value);
+    }
+  return axes;
+}
+
+void describe(Section& section) {
+  for (Axis& axis : axesOf(section.sequences)) {
+    if (axis.values.size() == 1)
+      section.fixed.values.push_back(axis.name + "=" + axis.values.front());
+    else
+      section.axes.push_back(std::move(axis));
+  }
+  const auto has = [&](auto predicate) { return std::ranges::any_of(section.sequences, predicate); };
+  section.severalFrames = has([](const Sequence& sequence) { return sequence.size() > 1; });
+  if (has([](const Sequence& s) {
+        return std::ranges::any_of(s, [](auto* cell) { return cell->maskMetrics.has_value(); });
+      }))
+    section.region = Region::mask;
+}
+
+std::vector<Section> sectionsOf(const std::vector<CellResult>& cells) {
+  std::vector<Section> sections;
+  std::map<std::string, std::size_t> sectionByView, sequenceByKey;
+  for (const CellResult& cell : cells) {
+    const auto [view, newView] = sectionByView.try_emplace(cell.scene + '\n' + cell.camera, sections.size());
+    if (newView) sections.emplace_back();
+    std::vector<Sequence>& sequences = sections[view->second].sequences;
+    const auto [key, newKey] = sequenceByKey.try_emplace(cell.sequenceKey(), sequences.size());
+    if (newKey) sequences.emplace_back();
+    sequences[key->second].push_back(&cell);
+  }
+  for (Section& section : sections) describe(section);
+  return sections;
+}
+
+// --- Numbers of a sequence -------------------------------------------------------------------------------------------
+
+template <class Value>
+double meanOver(const Sequence& sequence, Value value) {
+  double sum = 0;
+  int count = 0;
+  for (const CellResult* cell : sequence) {
+    const std::optional<double> number = value(*cell);
+    if (!number) continue;
+    sum += *number;
+    ++count;
+  }
+  return count > 0 ? sum / count : kUndefined;
+}
+
+template <class Value>
+double largestOver(const Sequence& sequence, Value value) {
+  double largest = kUndefined;
+  for (const CellResult* cell : sequence) largest = std::fmax(largest, value(*cell).value_or(kUndefined));
+  return largest;
+}
+
+std::optional<double> errorOf(const CellResult& cell, Region region, const std::string& metric) {
+  if (region == Region::whole) return metricValue(cell.metrics, metric);
+  return cell.maskMetrics ? metricValue(*cell.maskMetrics, metric) : std::nullopt;
+}
+
+std::optional<double> counterOf(const CellResult& cell, const std::string& name) {
+  for (const auto& [counter, value] : cell.counters)
+    if (counter == name) return static_cast<double>(value);
+  return std::nullopt;
+}
+
+std::optional<double> ageOf(const CellResult& cell) {
+  if (cell.faceAgeFrames.empty()) return std::nullopt;
+  double sum = 0;
+  for (const double age : cell.faceAgeFrames) sum += age;
+  return sum / static_cast<double>(cell.faceAgeFrames.size());
+}
+
+bool isClearOfFloor(const CellResult& cell, Region region) {
+  const std::optional<double> error = errorOf(cell, region, kFloorMetric);
+  const MetricValues& floors = region == Region::whole ? cell.floor : cell.maskFloor;
+  const auto floor = std::ranges::find(floors, kFloorMetric, [](const auto& pair) { return pair.first; });
+  return !error || floor == floors.end() || *error >= kClearOfFloor * floor->second;
+}
+
+bool isClearOfFloor(const Sequence& sequence, Region region) {
+  return std::ranges::all_of(sequence, [&](const CellResult* cell) { return isClearOfFloor(*cell, region); });
+}
+
+const std::optional<CostResult>& costOf(const Sequence& sequence) { return sequence.front()->cost; }
+
+// --- Cells of tables
+// ---------------------------------------------------------------------------------------------------
+
+std::string meanErrorText(const Sequence& sequence, Region region, const std::string& metric) {
+  const double mean = meanOver(sequence, [&](const CellResult& cell) { return errorOf(cell, region, metric); });
+  return formatSignificant(mean) + (isClearOfFloor(sequence, region) ? "" : kNotClearMark);
+}
+
+std::string worstErrorText(const Sequence& sequence, Region region, const std::string& metric) {
+  return formatSignificant(
+      largestOver(sequence, [&](const CellResult& cell) { return errorOf(cell, region, metric); }));
+}
+
+std::string intervalText(double low, double high) {
+  return fmt::format("{}..{}", formatSignificant(low), formatSignificant(high));
+}
+
+std::string captureText(const std::vector<double>& captureMs) {
+  std::vector<std::string> texts;
+  for (const double ms : captureMs) texts.push_back(formatSignificant(ms));
+  return fmt::format("{}", fmt::join(texts, " + "));
+}
+
+// Means over the frames: whole numbers where every frame does the same.
+std::string countText(double mean) {
+  if (std::isnan(mean)) return formatSignificant(mean);
+  return mean == std::trunc(mean) ? fmt::format("{:.0f}", mean) : fmt::format("{:.1f}", mean);
+}
+
+std::string counterText(const Sequence& sequence, const std::string& counter) {
+  return countText(meanOver(sequence, [&](const CellResult& cell) { return counterOf(cell, counter); }));
+}
+
+std::string mebibytesText(const Sequence& sequence, const std::string& counter) {
+  constexpr double kBytesPerMebibyte = 1024.0 * 1024.0;
+  const double bytes = meanOver(sequence, [&](const CellResult& cell) { return counterOf(cell, counter); });
+  return formatSignificant(bytes / kBytesPerMebibyte);
+}
+
+// --- Tables of everything: one row a technique
+// ---------------------------------------------------------------------------
+
+// A column of such a table and how to fill it.
+struct Quantity {
+  Column column;
+  std::function<std::string(const Sequence&)> text;
+};
+
+Table tableOfAll(const Section& section, const std::vector<Quantity>& quantities) {
+  Table table;
+  for (const Axis& axis : section.axes) table.columns.push_back({axis.name, Align::left});
+  for (const Quantity& quantity : quantities) table.columns.push_back(quantity.column);
+  for (const Sequence& sequence : section.sequences) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    for (const Axis& axis : section.axes) row.push_back(axisValue(sequence, axis.name));
+    for (const Quantity& quantity : quantities) row.push_back(quantity.text(sequence));
+  }
+  return table;
+}
+
+void addErrors(std::vector<Quantity>& quantities, const Section& section, Region region) {
+  const std::string place = region == Region::mask ? "mask" : "whole";
+  for (const auto& [metric, title] : {std::pair{kMainMetric, "FLIP-HDR"}, std::pair{kFloorMetric, "relMSE"}}) {
+    const std::string key = metric;
+    quantities.push_back({{fmt::format("{} {}", title, place)},
+                          [=](const Sequence& sequence) { return meanErrorText(sequence, region, key); }});
+    if (section.severalFrames)
+      quantities.push_back(
+          {{"worst"}, [=](const Sequence& sequence) { return worstErrorText(sequence, region, key); }});
+  }
+}
+
+Table errorTable(const Section& section) {
+  std::vector<Quantity> quantities;
+  if (section.region == Region::mask) addErrors(quantities, section, Region::mask);
+  addErrors(quantities, section, Region::whole);
+  quantities.push_back(
+      {{"face age"}, [](const Sequence& sequence) { return formatSignificant(meanOver(sequence, ageOf)); }});
+  return tableOfAll(section, quantities);
+}
+
+// A quantity of the measured cost, "-" where none was measured.
+Quantity costQuantity(const std::string& title, std::function<std::string(const CostResult&)> text) {
+  return {{title}, [=](const Sequence& sequence) { return costOf(sequence) ? text(*costOf(sequence)) : "-"; }};
+}
+
+Table costTable(const Section& section) {
+  return tableOfAll(
+      section,
+      {costQuantity("frame ms", [](const CostResult& cost) { return formatSignificant(cost.frameMs); }),
+       costQuantity("95 %", [](const CostResult& cost) { return intervalText(cost.frameMsLow, cost.frameMsHigh); }),
+       costQuantity("x plain", [](const CostResult& cost) { return formatSignificant(cost.ratio); }),
+       costQuantity("95 %", [](const CostResult& cost) { return intervalText(cost.ratioLow, cost.ratioHigh); }),
+       costQuantity("renders/frame by formula", [](const CostResult& cost) { return cost.rendersFormula; }),
+       costQuantity("measured", [](const CostResult& cost) { return countText(cost.measuredRendersPerFrame); }),
+       costQuantity("capture ms by bounce", [](const CostResult& cost) { return captureText(cost.captureMs); }),
+       costQuantity("final ms", [](const CostResult& cost) { return formatSignificant(cost.finalMs); })});
+}
+
+Table workTable(const Section& section) {
+  const auto counter = [](const char* title, const char* name) {
+    return Quantity{{title}, [=](const Sequence& sequence) { return counterText(sequence, name); }};
+  };
+  return tableOfAll(section,
+                    {{{"probe MiB"}, [](const Sequence& sequence) { return mebibytesText(sequence, "probe_bytes"); }},
+                     counter("faces captured", "faces_captured"),
+                     counter("draws", "draws"),
+                     counter("triangles", "triangles"),
+                     counter("fragments", "fragments"),
+                     counter("texels filtered", "texels_filtered")});
+}
+
+// --- Tables of one question: rows are one axis, columns another, the rest is fixed
+// -----------------------------------------
+
+// Where an axis stands while others are varied: at its largest number, or else at its first value.
+std::string standingValue(const Axis& axis) {
+  const auto number = [](const std::string& value) { return parseNumber(value); };
+  if (!std::ranges::all_of(axis.values, [&](const std::string& value) { return number(value).has_value(); }))
+    return axis.values.front();
+  return *std::ranges::max_element(axis.values, {}, number);
+}
+
+using Assignment = std::map<std::string, std::string>;  // axis -> value
+
+std::string textAt(const Section& section, const Assignment& place, const Quantity& quantity) {
+  const auto matches = [&](const Sequence& sequence) {
+    return std::ranges::all_of(place,
+                               [&](const auto& entry) { return axisValue(sequence, entry.first) == entry.second; });
+  };
+  const auto found = std::ranges::find_if(section.sequences, matches);
+  return found == section.sequences.end() ? "-" : quantity.text(*found);
+}
+
+struct Question {
+  const Axis& rows;
+  const Axis* columns;  // null if only one axis varies
+  Assignment fixed;
+};
+
+Question questionAbout(const Section& section, std::size_t axis) {
+  Question question{section.axes[axis], nullptr, {}};
+  if (section.axes.size() > 1) question.columns = &section.axes[(axis + 1) % section.axes.size()];
+  for (const Axis& other : section.axes)
+    if (&other != &question.rows && &other != question.columns) question.fixed[other.name] = standingValue(other);
+  return question;
+}
+
+Table questionTable(const Section& section, const Question& question, const Quantity& quantity) {
+  const Axis single{"", {quantity.column.title}};
+  const Axis& columns = question.columns ? *question.columns : single;
+  Table table{{{question.rows.name, Align::left}}, {}};
+  for (const std::string& value : columns.values)
+    table.columns.push_back({question.columns ? fmt::format("{}={}", columns.name, value) : value});
+  for (const std::string& value : question.rows.values) {
+    std::vector<std::string>& row = table.rows.emplace_back(1, value);
+    Assignment place = question.fixed;
+    place[question.rows.name] = value;
+    for (const std::string& columnValue : columns.values) {
+      if (question.columns) place[columns.name] = columnValue;
+      row.push_back(textAt(section, place, quantity));
+    }
+  }
+  return table;
+}
+
+std::string fixedText(const Assignment& fixed) {
+  std::string text;
+  for (const auto& [axis, value] : fixed) text += fmt::format(", {}={}", axis, value);
+  return text;
+}
+
+Quantity mainError(const Section& section) {
+  const Region region = section.region;
+  const bool severalFrames = section.severalFrames;
+  const std::string title = fmt::format("FLIP-HDR on the {}{}", region == Region::mask ? "mask" : "whole image",
+                                        severalFrames ? ", mean over the frames (worst frame)" : "");
+  return {{title}, [=](const Sequence& sequence) {
+            const std::string mean = meanErrorText(sequence, region, kMainMetric);
+            return severalFrames ? fmt::format("{} ({})", mean, worstErrorText(sequence, region, kMainMetric)) : mean;
+          }};
+}
+
+Quantity mainCost() {
+  Quantity quantity = costQuantity("", [](const CostResult& cost) { return formatSignificant(cost.ratio); });
+  quantity.column.title = "frame time as a multiple of a plain frame";
+  return quantity;
+}
+
+std::string questionsText(const Section& section) {
+  const bool hasCost = std::ranges::any_of(section.sequences, [](const Sequence& s) { return costOf(s).has_value(); });
+  const Quantity error = mainError(section), cost = mainCost();
+  std::string text;
+  for (std::size_t i = 0; i < section.axes.size(); ++i) {
+    const Question question = questionAbout(section, i);
+    const auto add = [&](const char* what, const Quantity& quantity) {
+      text += fmt::format("### {} versus {}\n\n{}{}\n\n{}\n", what, question.rows.name, quantity.column.title,
+                          fixedText(question.fixed), toMarkdown(questionTable(section, question, quantity)));
+    };
+    add("Error", error);
+    if (hasCost) add("Cost", cost);
+  }
+  return text;
+}
+
+// --- The report
+// --------------------------------------------------------------------------------------------------------------
+
+std::string framesText(const Section& section) {
+  std::vector<int> frames;
+  for (const Sequence& sequence : section.sequences)
+    for (const CellResult* cell : sequence) frames.push_back(cell->frame);
+  std::ranges::sort(frames);
+  frames.erase(std::ranges::unique(frames).begin(), frames.end());
+  return fmt::format("{} {}", frames.size() > 1 ? "frames" : "frame", fmt::join(frames, " "));
+}
+
+std::string sectionText(const Section& section) {
+  const CellResult& first = *section.sequences.front().front();
+  std::string text = fmt::format("## {}{}\n\n{}", first.scene, first.camera.empty() ? "" : ", camera " + first.camera,
+                                 framesText(section));
+  if (!section.fixed.values.empty()) text += fmt::format("; {}", fmt::join(section.fixed.values, ", "));
+  text += "\n\n" + questionsText(section);
+  text += "### All errors\n\n" + toMarkdown(errorTable(section)) + '\n';
+  text += "### All costs\n\n" + toMarkdown(costTable(section)) + '\n';
+  text += "### Work per frame\n\n" + toMarkdown(workTable(section)) + '\n';
+  return text;
+}
+
+constexpr char kLegend[] =
+    "Errors are against the converged reference; mask: the pixels of reflective and refractive objects. "
+    "`~`: not clear of the reference's own noise, relMSE is less than 10 times the floor. "
+    "Costs are medians with their 95 % interval; `x plain` is relative to a frame of the same scene and size without "
+    "captures; one render is one view of the scene (a cube face or the final image), "
+    "face age counts frames since the capture.\n\n";
+
+void appendAll(Table& table, const std::string& prefix, const auto& pairs) {
+  for (const auto& [name, value] : pairs) table.rows.push_back({prefix + name, value});
+}
+
+std::string circumstances(const Provenance& p) {
+  Table table{{{"circumstance", Align::left}, {"value", Align::left}}, {}};
+  const std::pair<std::string, std::string> fixed[] = {
+      {"probebench", fmt::format("{} ({})", p.toolVersion, p.gitHash)},
+      {"suite", fmt::format("{} ({})", p.suiteName, p.suiteHash)},
+      {"started", p.startedAt},
+      {"control", p.controlOutcome},
+      {"seed", fmt::format("{}", p.seed)},
+      {"CPU", fmt::format("{}, {} threads", p.cpu, p.threads)},
+      {"GL", fmt::format("{}: {}, {}", p.glBackend, p.glRenderer, p.glVersion)},
+  };
+  appendAll(table, "", fixed);
+  appendAll(table, "", p.settings);
+  appendAll(table, "scene ", p.sceneHashes);
+  appendAll(table, "", p.libraries);
+  return "## Circumstances\n\n" + toMarkdown(table);
+}
+
+}  // namespace
+
+std::string makeReport(const Results& results) {
+  const std::vector<Section> sections = sectionsOf(results.cells);
+  std::string text = fmt::format("# {}: error and cost of reflection probes\n\n{} cells, control {}.\n\n",
+                                 results.provenance.suiteName, results.cells.size(), results.provenance.controlOutcome);
+  text += kLegend;
+  for (const Section& section : sections) text += sectionText(section);
+  return text + circumstances(results.provenance);
+}
+
+void writeReport(const Results& results, const std::string& directory) {
+  std::error_code failure;
+  std::filesystem::create_directories(directory, failure);
+  if (failure) throwEnvironmentError("can't make directory '{}': {}", directory, failure.message());
+  writeFileAtomically(directory + "/report.md", makeReport(results));
+  writeFileAtomically(directory + "/report.csv", toCsv(results));
+}
+
+}  // namespace pb

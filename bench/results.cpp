@@ -75,7 +75,7 @@ constexpr Region kRegions[] = {
 void appendCell(const CellResult& cell, const std::vector<std::string>& axes, std::string& csv) {
   std::string prefix = fmt::format("{},{},{},", csvField(cell.scene), csvField(cell.camera), cell.frame);
   for (const std::string& axis : axes) prefix += csvField(axisValue(cell, axis)) + ',';
-  const Json json = toJsonObject(cell);
+  const Json json = cellToJson(cell);
   for (const Region& region : kRegions) {
     const Json& values = json.at(region.jsonKey);
     if (!values.is_null()) appendRows(fmt::format("{}{},", prefix, region.name), region.metric, values, csv);

@@ -53,7 +53,7 @@ std::vector<std::pair<std::string, Value>> pairsOf(const Json& json) {
   return pairs;
 }
 
-Json toJsonObject(const MetricValues& values) {
+Json metricValuesToJson(const MetricValues& values) {
   Json json = Json::object();
   for (const auto& [key, value] : values) json[key] = encodeNumber(value);
   return json;
@@ -65,11 +65,11 @@ MetricValues metricValuesFromJson(const Json& json) {
   return values;
 }
 
-Json toJsonObject(const Tolerance& tolerance) {
+Json toleranceToJson(const Tolerance& tolerance) {
   if (tolerance.kind == Tolerance::Kind::plain)
     return {{"absolute", tolerance.absolute}, {"relative", tolerance.relative}};
   Json children = Json::array();
-  for (const Tolerance& child : tolerance.children) children.push_back(toJsonObject(child));
+  for (const Tolerance& child : tolerance.children) children.push_back(toleranceToJson(child));
   return Json::object({{tolerance.kind == Tolerance::Kind::any ? "any" : "all", children}});
 }
 
@@ -83,7 +83,7 @@ Tolerance toleranceFromJson(const Json& json) {
   return tree;
 }
 
-Json toJsonObject(const std::optional<CostResult>& cost) {
+Json costToJson(const std::optional<CostResult>& cost) {
   if (!cost) return nullptr;
   Json json;
   json["repetitions"] = cost->repetitions;
@@ -128,7 +128,7 @@ void requireDistinctKeys(const std::vector<CellResult>& cells, const std::string
 
 }  // namespace
 
-Json toJsonObject(const Provenance& provenance) {
+Json provenanceToJson(const Provenance& provenance) {
   Json json;
   for (const auto& field : kProvenanceTexts) json[field.key] = provenance.*field.member;
   json["threads"] = provenance.threads;
@@ -150,9 +150,9 @@ Provenance provenanceFromJson(const Json& json) {
   return provenance;
 }
 
-Json toJsonObject(const Tolerances& tolerances) {
+Json tolerancesToJson(const Tolerances& tolerances) {
   Json json = Json::object();
-  for (const auto& [metric, tolerance] : tolerances) json[metric] = toJsonObject(tolerance);
+  for (const auto& [metric, tolerance] : tolerances) json[metric] = toleranceToJson(tolerance);
   return json;
 }
 
@@ -162,13 +162,13 @@ Tolerances tolerancesFromJson(const Json& json) {
   return tolerances;
 }
 
-Json toJsonObject(const std::vector<std::pair<std::string, std::int64_t>>& counters) { return objectOf(counters); }
+Json countersToJson(const std::vector<std::pair<std::string, std::int64_t>>& counters) { return objectOf(counters); }
 
 std::vector<std::pair<std::string, std::int64_t>> countersFromJson(const Json& json) {
   return pairsOf<std::int64_t>(json);
 }
 
-Json toJsonObject(const CellResult& cell) {
+Json cellToJson(const CellResult& cell) {
   Json json;
   json["scene"] = cell.scene;
   json["camera"] = cell.camera;
@@ -176,16 +176,16 @@ Json toJsonObject(const CellResult& cell) {
   json["technique"] = objectOf(cell.technique);
   json["metrics"] = metricsToJson(cell.metrics);
   json["mask_metrics"] = cell.maskMetrics ? metricsToJson(*cell.maskMetrics) : nullptr;
-  json["floor"] = toJsonObject(cell.floor);
-  json["mask_floor"] = toJsonObject(cell.maskFloor);
-  json["unbiased"] = toJsonObject(cell.unbiased);
-  json["cost"] = toJsonObject(cell.cost);
-  json["counters"] = toJsonObject(cell.counters);
+  json["floor"] = metricValuesToJson(cell.floor);
+  json["mask_floor"] = metricValuesToJson(cell.maskFloor);
+  json["unbiased"] = metricValuesToJson(cell.unbiased);
+  json["cost"] = costToJson(cell.cost);
+  json["counters"] = countersToJson(cell.counters);
   json["face_age_frames"] = cell.faceAgeFrames;
   return json;
 }
 
-std::string toJson(const CellResult& cell) { return printLine(toJsonObject(cell)); }
+std::string toJson(const CellResult& cell) { return printLine(cellToJson(cell)); }
 
 CellResult cellFromJson(const std::string& text, const std::string& place) {
   return cellFromJson(parsePart(text, place, R"({"$ref": "results.schema.json#/definitions/cell"})"));
@@ -194,10 +194,10 @@ CellResult cellFromJson(const std::string& text, const std::string& place) {
 std::string toJson(const Results& results) {
   Json head;
   head["schema_version"] = kResultsSchemaVersion;
-  head["provenance"] = toJsonObject(results.provenance);
-  head["tolerance"] = toJsonObject(results.tolerance);
+  head["provenance"] = provenanceToJson(results.provenance);
+  head["tolerance"] = tolerancesToJson(results.tolerance);
   std::vector<Json> rows;
-  for (const CellResult& cell : results.cells) rows.push_back(toJsonObject(cell));
+  for (const CellResult& cell : results.cells) rows.push_back(cellToJson(cell));
   return printDocument(head, "cells", rows);
 }
 

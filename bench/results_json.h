@@ -12,16 +12,16 @@
 
 namespace pb {
 
-Json toJsonObject(const Provenance& provenance);
+Json provenanceToJson(const Provenance& provenance);
 Provenance provenanceFromJson(const Json& json);
 
-Json toJsonObject(const Tolerances& tolerances);
+Json tolerancesToJson(const Tolerances& tolerances);
 Tolerances tolerancesFromJson(const Json& json);
 
-Json toJsonObject(const std::vector<std::pair<std::string, std::int64_t>>& counters);
+Json countersToJson(const std::vector<std::pair<std::string, std::int64_t>>& counters);
 std::vector<std::pair<std::string, std::int64_t>> countersFromJson(const Json& json);
 
 // The cell as it stands in results.json.
-Json toJsonObject(const CellResult& cell);
+Json cellToJson(const CellResult& cell);
 
 }  // namespace pb

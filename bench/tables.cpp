@@ -57,7 +57,10 @@ std::string toMarkdown(const Table& table) {
 
 std::string formatSignificant(double value, int digits) {
   if (std::isnan(value)) return "-";
-  return fmt::format("{:.{}g}", value, digits);
+  if (value == 0 || std::isinf(value)) return fmt::format("{}", value);
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (exponent < -4 || exponent >= 6) return fmt::format("{:.{}e}", value, digits - 1);
+  return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
 }
 
 }  // namespace pb

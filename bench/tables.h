@@ -21,8 +21,8 @@ struct Table {
 // Widths count Unicode code points; '|' and line breaks in a cell are escaped. Ends with a line break.
 std::string toMarkdown(const Table& table);
 
-// `value` with that many significant digits, in plain or scientific notation, whichever is shorter to read: 0.0123,
-// 1.23e-05. "inf" and "-" (for NaN) otherwise.
+// `value` with that many significant digits: 0.0123, 12.3, 12345, and 1.23e-05 below 1e-4 or from a million on. "-" for
+// NaN.
 std::string formatSignificant(double value, int digits = 3);
 
 }  // namespace pb
