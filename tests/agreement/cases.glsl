@@ -1,0 +1,126 @@
+// Calls of the shading model for the agreement test: compiled as GLSL in shading_agreement.comp and as C++ in shading_agreement_test.cpp.
+// Inputs a and b are four numbers each in [0,1); `image` is a mipmapped 8 x 8 texture and `faces` an 8 x 8 cube in six layers. Each
+// case has a row with its tolerance in the table of shading_agreement_test.cpp.
+
+PB_FUNC vec3 unitVector(vec4 v) { return safeNormalize(2.0f * vec3(v) - vec3(1.0f)); }
+
+// Away from the ties of cube faces, where either neighbour is right and the two languages may choose differently.
+PB_FUNC vec3 offTies(vec3 d) {
+  vec3 a = abs(d);
+  float margin = min(abs(a.x - a.y), min(abs(a.y - a.z), abs(a.z - a.x)));
+  return margin < 1e-3f ? vec3(0.1f, 0.2f, 0.9f) : d;
+}
+
+PB_FUNC Light makeLight(float kind, vec4 a, vec4 b) {
+  Light light;
+  light.positionKind = vec4(4.0f * vec3(a), kind);
+  light.directionRange = vec4(unitVector(b), b.w < 0.5f ? 0.0f : 6.0f);
+  light.intensity = vec4(3.0f * vec3(b), 0.0f);
+  light.cone = vec4(2.0f, 0.2f, 0.0f, 0.0f);
+  return light;
+}
+
+PB_FUNC Sky makeSky(vec4 a, float clampTo) {
+  Sky sky;
+  sky.horizon = vec4(0.7f, 0.8f, 0.9f, clampTo);
+  sky.zenith = vec4(0.1f, 0.3f, 0.7f, 0.0f);
+  sky.below = vec4(0.3f, 0.2f, 0.1f, 0.0f);
+  sky.glow = vec4(0.8f, 0.7f, 0.5f, 1.0f + 64.0f * a.w);
+  sky.toGlow = vec4(0.48f, 0.6f, 0.64f, 0.0f);
+  return sky;
+}
+
+PB_FUNC Ambient makeAmbient(vec4 a, vec4 b) {
+  Ambient ambient;
+  ambient.constant = 2.0f * a;
+  ambient.y = b;
+  ambient.z = a - b;
+  ambient.x = 0.5f * b;
+  ambient.xy = b - a;
+  ambient.yz = 0.3f * a;
+  ambient.zz = 0.2f * b;
+  ambient.xz = 0.1f * a;
+  ambient.xxyy = 0.4f * b;
+  return ambient;
+}
+
+PB_FUNC Surface makeTestSurface(float kind, vec4 a, vec4 b) {
+  Surface s;
+  s.position = vec3(a);
+  s.normal = unitVector(b);
+  s.baseColor = vec3(b);
+  s.emission = 0.1f * vec3(a);
+  s.metallic = a.w;
+  s.occlusion = b.w;
+  s.transmission = a.w;
+  s.ior = 1.0f + b.w;
+  s.kind = kind;
+  return s;
+}
+
+PB_FUNC MaterialConstants makeMaterial(vec4 a) {
+  MaterialConstants m;
+  m.baseColor = vec4(a.w, a.x, a.y, 1.0f);
+  m.emission = vec4(2.0f * vec3(a), 1.0f);
+  m.factors = vec4(a.z, 0.5f, a.x, a.y);
+  m.kind = vec4(kSurfaceMirror, 1.5f, 0.0f, 0.0f);
+  return m;
+}
+
+PB_FUNC View makeView(vec4 a) {
+  View view;
+  view.origin = vec4(a.x, a.y, a.z, 0.1f);
+  view.forward = vec4(0.0f, 0.6f, -0.8f, 0.01f);
+  view.right = vec4(0.5f, 0.0f, 0.0f, 0.0f);
+  view.down = vec4(0.0f, -0.32f, -0.24f, 0.0f);
+  return view;
+}
+
+PB_FUNC vec4 clampRepeatSettings(vec4 a, float magnification, float minification) {
+  return vec4(floor(3.0f * a.z), floor(3.0f * a.w), magnification, minification);
+}
+
+PB_FUNC vec4 packTaps(CubeTaps t) {
+  return vec4(float(t.p00.x + 16 * t.p00.y + 256 * t.p00.z), float(t.p10.x + 16 * t.p10.y + 256 * t.p10.z),
+              float(t.p01.x + 16 * t.p01.y + 256 * t.p01.z), float(t.p11.x + 16 * t.p11.y + 256 * t.p11.z));
+}
+
+AGREEMENT_CASES_BEGIN
+AGREEMENT_CASE(0, vec4(safeNormalize(vec3(a)), pow5(a.w)))
+AGREEMENT_CASE(1, vec4(srgbEncode(a.x), srgbEncode(0.01f * a.y), srgbDecode(a.z), srgbDecode(0.1f * a.w)))
+AGREEMENT_CASE(2, vec4(cubeDirection(int(6.0f * a.z), 2.0f * vec2(a.x, a.y) - vec2(1.0f)), float(cubeFaceOf(offTies(unitVector(b))))))
+AGREEMENT_CASE(3, vec4(cubeFaceCoordinates(cubeFaceOf(offTies(unitVector(b))), offTies(unitVector(b))), 0.0f, 0.0f))
+AGREEMENT_CASE(4, vec4(64.0f * cubeTexelSolidAngle(ivec2(8.0f * vec2(a.x, a.y)), 8)))
+AGREEMENT_CASE(5, vec4(vec3(cubeWrapTexel(ivec2(10.0f * vec2(a.x, a.y)) - ivec2(1), int(6.0f * a.z), 8)), 0.0f))
+AGREEMENT_CASE(6, cubeBilinearTaps(offTies(unitVector(a)), 8).weights)
+AGREEMENT_CASE(7, packTaps(cubeBilinearTaps(offTies(unitVector(a)), 8)))
+AGREEMENT_CASE(8, sampleCube(faces, offTies(unitVector(a))))
+AGREEMENT_CASE(9, vec4(gradientSky(makeSky(a, 0.0f), unitVector(b)), 0.0f))
+AGREEMENT_CASE(10, vec4(gradientSky(makeSky(a, 1.0f), unitVector(b)), 0.0f))
+AGREEMENT_CASE(11, vec4(ambientRadiance(makeAmbient(a, b), unitVector(vec4(b.w, a.w, b.x, 0.0f))), 0.0f))
+AGREEMENT_CASE(12, vec4(F_Schlick(vec3(a), a.w), F_Dielectric(b.x, 1.1f + b.y)))
+AGREEMENT_CASE(13, vec4(F_Dielectric(b.x, 0.5f + 0.4f * b.y), F_Dielectric(0.0f, 1.5f), F_Dielectric(1.0f, 1.5f), 0.0f))
+AGREEMENT_CASE(14, vec4(refractedDirection(unitVector(a), -unitVector(a + 0.2f * b), 1.0f + b.w), 0.0f))
+AGREEMENT_CASE(15, vec4(reflectedDirection(unitVector(a), unitVector(b)), 0.0f))
+AGREEMENT_CASE(16, vec4(lightIrradianceOn(makeLight(kLightDirectional, a, b), vec3(b.w, a.w, 0.5f), unitVector(a)), 0.0f))
+AGREEMENT_CASE(17, vec4(lightIrradianceOn(makeLight(kLightPoint, a, b), vec3(4.5f, 5.0f, 4.2f), unitVector(a)), 0.0f))
+AGREEMENT_CASE(18, vec4(lightIrradianceOn(makeLight(kLightSpot, a, b), vec3(4.5f, 5.0f, 4.2f), unitVector(a)), 0.0f))
+AGREEMENT_CASE(19, vec4(mappedNormal(unitVector(a), vec4(unitVector(b), b.w < 0.5f ? -1.0f : 1.0f), vec4(b.y, b.z, 0.9f, 0.0f), a.w), 0.0f))
+AGREEMENT_CASE(20, vec4(localRadiance(makeTestSurface(kSurfaceDiffuse, a, b), vec3(a), vec3(b)), 0.0f))
+AGREEMENT_CASE(21, vec4(localRadiance(makeTestSurface(kSurfaceMirror, a, b), vec3(a), vec3(b)), 0.0f))
+AGREEMENT_CASE(22, vec4(localRadiance(makeTestSurface(kSurfaceGlass, a, b), vec3(a), vec3(b)), 0.0f))
+AGREEMENT_CASE(23, vec4(localRadiance(makeTestSurface(kSurfaceUnlit, a, b), vec3(a), vec3(b)), 0.0f))
+AGREEMENT_CASE(24, vec4(specularWeights(makeTestSurface(kSurfaceMirror, a, b), b.w, 1.5f).reflection, 0.0f))
+AGREEMENT_CASE(25, vec4(specularWeights(makeTestSurface(kSurfaceGlass, a, b), b.w, 1.5f).refraction, specularWeights(makeTestSurface(kSurfaceGlass, a, b), b.w, 1.5f).reflection.x))
+AGREEMENT_CASE(26, vec4(viewDirection(makeView(a), 2.0f * vec2(b.x, b.y) - vec2(1.0f)), 0.0f))
+AGREEMENT_CASE(27, clipFromWorldPosition(makeView(a), 5.0f * vec3(b)))
+AGREEMENT_CASE(28, sampleTexture(image, 6.0f * vec2(b.x, b.y) - vec2(3.0f), -1.0f, clampRepeatSettings(a, kFilterLinear, kFilterLinear)))
+AGREEMENT_CASE(29, sampleTexture(image, vec2(b.x, b.y), 4.0f * b.z, clampRepeatSettings(a, kFilterLinear, kFilterLinearMipLinear)))
+AGREEMENT_CASE(30, sampleTexture(image, vec2(b.x, b.y), 4.0f * b.z, clampRepeatSettings(a, kFilterNearest, kFilterLinearMipNearest)))
+AGREEMENT_CASE(31, vec4(float(nearestTexelId(image, 6.0f * vec2(b.x, b.y) - vec2(3.0f), -1.0f, clampRepeatSettings(a, kFilterNearest, kFilterLinear)))))
+AGREEMENT_CASE(32, vec4(textureCoordinates(a, vec4(b.x, b.y, b.z, 1.0f), vec2(b.z, b.w), vec2(b.w, a.x)), 0.0f, 0.0f))
+AGREEMENT_CASE(33, vec4(coneLod(0.01f + a.x, b.x - 0.5f, 1.0f + 10.0f * a.y, ivec2(64, 32), vec4(2.0f, 0.0f, 0.0f, 3.0f))))
+AGREEMENT_CASE(34, vec4(vec3(makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).baseColor), makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).metallic))
+AGREEMENT_CASE(35, vec4(makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).emission, makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).occlusion))
+AGREEMENT_CASE(36, vec4(environmentRadiance(makeSky(a, 0.0f), faces, unitVector(b)), 0.0f))
+AGREEMENT_CASES_END
