@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <map>
 #include <system_error>
 
+#include "bench/sections.h"
 #include "bench/tables.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
@@ -16,149 +16,22 @@
 namespace pb {
 namespace {
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-
-// An error counts as clear of the reference's noise when the noise makes up at most a tenth of it: a relMSE against a
-// noisy reference is on average the true one plus the floor.
-constexpr double kClearOfFloor = 10.0;
 constexpr char kNotClearMark[] = " ~";
 
-// The main error of the tables: perceptual, and defined for scene-referred images.
+// Perceptual, and defined for scene-referred images: the error that the tables of one question show.
 constexpr char kMainMetric[] = "flip_hdr";
-constexpr char kFloorMetric[] = "relmse";
 
-enum class Region { whole, mask };
-
-// --- The cells of a run, grouped -----------------------------------------------------------------------------------
-
-// The frames of one technique on one scene.
-using Sequence = std::vector<const CellResult*>;
-
-struct Axis {
-  std::string name;
-  std::vector<std::string> values;  // in the order of the run
-};
-
-// Everything about one scene seen through one camera.
-struct Section {
-  std::vector<Sequence> sequences;
-  std::vector<Axis> axes;  // those with more than one value
-  Axis fixed;              // "axis=value" of the others
-  Region region = Region::whole;
-  bool severalFrames = false;
-};
-
-std::string axisValue(const Sequence& sequence, const std::string& axis) {
-  for (const auto& [name, value] : sequence.front()->technique)
-    if (name == axis) return value;
-  return "";
-}
-
-std::vector<Axis> axesOf(const std::vector<Sequence>& sequences) {
-  std::vector<Axis> axes;
-  for (const Sequence& sequence : sequences)
-    for (const auto& [name, value] : sequence.front()->technique) {
-      auto axis = std::ranges::find(axes, name, &Axis::name);
-      if (axis == axes.end()) axis = axes.insert(axes.end(), Axis{name, {}});
-      if (std::ranges::find(axis->values, value) == axis->values.end()) axis->values.push_back(value);
-    }
-  return axes;
-}
-
-void describe(Section& section) {
-  for (Axis& axis : axesOf(section.sequences)) {
-    if (axis.values.size() == 1)
-      section.fixed.values.push_back(axis.name + "=" + axis.values.front());
-    else
-      section.axes.push_back(std::move(axis));
-  }
-  const auto has = [&](auto predicate) { return std::ranges::any_of(section.sequences, predicate); };
-  section.severalFrames = has([](const Sequence& sequence) { return sequence.size() > 1; });
-  if (has([](const Sequence& s) {
-        return std::ranges::any_of(s, [](auto* cell) { return cell->maskMetrics.has_value(); });
-      }))
-    section.region = Region::mask;
-}
-
-std::vector<Section> sectionsOf(const std::vector<CellResult>& cells) {
-  std::vector<Section> sections;
-  std::map<std::string, std::size_t> sectionByView, sequenceByKey;
-  for (const CellResult& cell : cells) {
-    const auto [view, newView] = sectionByView.try_emplace(cell.scene + '\n' + cell.camera, sections.size());
-    if (newView) sections.emplace_back();
-    std::vector<Sequence>& sequences = sections[view->second].sequences;
-    const auto [key, newKey] = sequenceByKey.try_emplace(cell.sequenceKey(), sequences.size());
-    if (newKey) sequences.emplace_back();
-    sequences[key->second].push_back(&cell);
-  }
-  for (Section& section : sections) describe(section);
-  return sections;
-}
-
-// --- Numbers of a sequence -------------------------------------------------------------------------------------------
-
-template <class Value>
-double meanOver(const Sequence& sequence, Value value) {
-  double sum = 0;
-  int count = 0;
-  for (const CellResult* cell : sequence) {
-    const std::optional<double> number = value(*cell);
-    if (!number) continue;
-    sum += *number;
-    ++count;
-  }
-  return count > 0 ? sum / count : kUndefined;
-}
-
-template <class Value>
-double largestOver(const Sequence& sequence, Value value) {
-  double largest = kUndefined;
-  for (const CellResult* cell : sequence) largest = std::fmax(largest, value(*cell).value_or(kUndefined));
-  return largest;
-}
-
-std::optional<double> errorOf(const CellResult& cell, Region region, const std::string& metric) {
-  if (region == Region::whole) return metricValue(cell.metrics, metric);
-  return cell.maskMetrics ? metricValue(*cell.maskMetrics, metric) : std::nullopt;
-}
-
-std::optional<double> counterOf(const CellResult& cell, const std::string& name) {
-  for (const auto& [counter, value] : cell.counters)
-    if (counter == name) return static_cast<double>(value);
-  return std::nullopt;
-}
-
-std::optional<double> ageOf(const CellResult& cell) {
-  if (cell.faceAgeFrames.empty()) return std::nullopt;
-  double sum = 0;
-  for (const double age : cell.faceAgeFrames) sum += age;
-  return sum / static_cast<double>(cell.faceAgeFrames.size());
-}
-
-bool isClearOfFloor(const CellResult& cell, Region region) {
-  const std::optional<double> error = errorOf(cell, region, kFloorMetric);
-  const MetricValues& floors = region == Region::whole ? cell.floor : cell.maskFloor;
-  const auto floor = std::ranges::find(floors, kFloorMetric, [](const auto& pair) { return pair.first; });
-  return !error || floor == floors.end() || *error >= kClearOfFloor * floor->second;
-}
-
-bool isClearOfFloor(const Sequence& sequence, Region region) {
-  return std::ranges::all_of(sequence, [&](const CellResult* cell) { return isClearOfFloor(*cell, region); });
-}
+// --- Cells of tables
 
 const std::optional<CostResult>& costOf(const Sequence& sequence) { return sequence.front()->cost; }
 
-// --- Cells of tables
-// ---------------------------------------------------------------------------------------------------
-
 std::string meanErrorText(const Sequence& sequence, Region region, const std::string& metric) {
-  const double mean = meanOver(sequence, [&](const CellResult& cell) { return errorOf(cell, region, metric); });
-  return formatSignificant(mean) + (isClearOfFloor(sequence, region) ? "" : kNotClearMark);
+  return formatSignificant(meanError(sequence, region, metric)) +
+         (isClearOfFloor(sequence, region) ? "" : kNotClearMark);
 }
 
 std::string worstErrorText(const Sequence& sequence, Region region, const std::string& metric) {
-  return formatSignificant(
-      largestOver(sequence, [&](const CellResult& cell) { return errorOf(cell, region, metric); }));
+  return formatSignificant(largestError(sequence, region, metric));
 }
 
 std::string intervalText(double low, double high) {
@@ -178,17 +51,15 @@ std::string countText(double mean) {
 }
 
 std::string counterText(const Sequence& sequence, const std::string& counter) {
-  return countText(meanOver(sequence, [&](const CellResult& cell) { return counterOf(cell, counter); }));
+  return countText(meanCounter(sequence, counter));
 }
 
 std::string mebibytesText(const Sequence& sequence, const std::string& counter) {
   constexpr double kBytesPerMebibyte = 1024.0 * 1024.0;
-  const double bytes = meanOver(sequence, [&](const CellResult& cell) { return counterOf(cell, counter); });
-  return formatSignificant(bytes / kBytesPerMebibyte);
+  return formatSignificant(meanCounter(sequence, counter) / kBytesPerMebibyte);
 }
 
 // --- Tables of everything: one row a technique
-// ---------------------------------------------------------------------------
 
 // A column of such a table and how to fill it.
 struct Quantity {
@@ -210,7 +81,7 @@ Table tableOfAll(const Section& section, const std::vector<Quantity>& quantities
 
 void addErrors(std::vector<Quantity>& quantities, const Section& section, Region region) {
   const std::string place = region == Region::mask ? "mask" : "whole";
-  for (const auto& [metric, title] : {std::pair{kMainMetric, "FLIP-HDR"}, std::pair{kFloorMetric, "relMSE"}}) {
+  for (const auto& [metric, title] : {std::pair{kMainMetric, "FLIP-HDR"}, std::pair{"relmse", "relMSE"}}) {
     const std::string key = metric;
     quantities.push_back({{fmt::format("{} {}", title, place)},
                           [=](const Sequence& sequence) { return meanErrorText(sequence, region, key); }});
@@ -225,7 +96,7 @@ Table errorTable(const Section& section) {
   if (section.region == Region::mask) addErrors(quantities, section, Region::mask);
   addErrors(quantities, section, Region::whole);
   quantities.push_back(
-      {{"face age"}, [](const Sequence& sequence) { return formatSignificant(meanOver(sequence, ageOf)); }});
+      {{"face age"}, [](const Sequence& sequence) { return formatSignificant(meanFaceAge(sequence)); }});
   return tableOfAll(section, quantities);
 }
 
@@ -261,7 +132,6 @@ Table workTable(const Section& section) {
 }
 
 // --- Tables of one question: rows are one axis, columns another, the rest is fixed
-// -----------------------------------------
 
 // Where an axis stands while others are varied: at its largest number, or else at its first value.
 std::string standingValue(const Axis& axis) {
@@ -354,7 +224,6 @@ std::string questionsText(const Section& section) {
 }
 
 // --- The report
-// --------------------------------------------------------------------------------------------------------------
 
 std::string framesText(const Section& section) {
   std::vector<int> frames;
@@ -369,7 +238,7 @@ std::string sectionText(const Section& section) {
   const CellResult& first = *section.sequences.front().front();
   std::string text = fmt::format("## {}{}\n\n{}", first.scene, first.camera.empty() ? "" : ", camera " + first.camera,
                                  framesText(section));
-  if (!section.fixed.values.empty()) text += fmt::format("; {}", fmt::join(section.fixed.values, ", "));
+  if (!section.fixed.empty()) text += fmt::format("; {}", fmt::join(section.fixed, ", "));
   text += "\n\n" + questionsText(section);
   text += "### All errors\n\n" + toMarkdown(errorTable(section)) + '\n';
   text += "### All costs\n\n" + toMarkdown(costTable(section)) + '\n';
