@@ -61,7 +61,7 @@ TEST(FinishMesh, BadInput_IsRefused) {
   uneven.indices.push_back(0);
   EXPECT_THROW(finishMesh(uneven), Error);
   Mesh shortNormals = makeTriangle();
-  shortNormals.normals = {{0, 0, 1}};
+  shortNormals.normals.assign(1, glm::vec3(0, 0, 1));
   EXPECT_THROW(finishMesh(shortNormals), Error);
 }
 
