@@ -82,7 +82,7 @@ Scene makeTeapotScene(SpecReader& /*parameters*/) {
   scene.tracks.push_back(makeOrbit(pivotIndex));
   Node orbiting;
   orbiting.parent = pivotIndex;
-  orbiting.translation = {0.0f, 0.35f, 2.3f};
+  orbiting.translation = {-2.25f, 0.35f, -0.5f};
   orbiting.scale = glm::vec3(0.6f);
   addInstance(scene, "Matte teapot", teapot, addMaterial(scene, makeDiffuseMaterial("Matte", {0.85f, 0.25f, 0.15f})),
               orbiting);
