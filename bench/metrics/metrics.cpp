@@ -1,0 +1,136 @@
+#include "bench/metrics/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bench/metrics/checks.h"
+#include "bench/metrics/flip.h"
+#include "bench/metrics/ssim.h"
+#include "scenes/image_io.h"
+
+namespace pb {
+namespace {
+
+template <class Function>
+Image mapped(const Image& image, Function function) {
+  Image result(image.width(), image.height());
+  std::transform(image.begin(), image.end(), result.begin(), [&](const glm::vec3& pixel) {
+    return glm::vec3(function(pixel.x), function(pixel.y), function(pixel.z));
+  });
+  return result;
+}
+
+Image decoded(const Image& encoded) { return mapped(encoded, linearFromSrgb); }
+
+Image displayed(const Image& image, const MetricsSettings& settings) {
+  if (settings.srgb) return image;
+  const auto gain = static_cast<float>(std::exp2(settings.exposure));
+  if (!settings.clampForDisplay) return mapped(image, [gain](float value) { return value * gain; });
+  return mapped(image, [gain](float value) { return std::clamp(value * gain, 0.0f, 1.0f); });
+}
+
+// The values that PSNR and SSIM see, and those that LDR-FLIP sees: the same unless they must be decoded first.
+struct DisplayedImage {
+  DisplayedImage(const Image& image, const MetricsSettings& settings) : values(displayed(image, settings)) {
+    if (settings.srgb) decodedValues = decoded(image);
+  }
+  const Image& linear() const { return decodedValues ? *decodedValues : values; }
+
+  Image values;
+  std::optional<Image> decodedValues;
+};
+
+bool isEmpty(const Mask& mask) {
+  return std::all_of(mask.begin(), mask.end(), [](unsigned char inside) { return inside == 0; });
+}
+
+// Everything about a pair that its metrics over several regions share.
+struct PairMaps {
+  const Image& reference;
+  const Image& test;
+  const Image& displayedReference;
+  const Image& displayedTest;
+  SsimMaps ssim;
+  FlipResult flipLdr;
+  std::optional<FlipResult> flipHdr;
+};
+
+Metrics metricsOver(const PairMaps& maps, const Mask* mask) {
+  Metrics metrics;
+  metrics.sums = computeErrorSums(maps.reference, maps.test, mask);
+  metrics.sums.psnr = computeErrorSums(maps.displayedReference, maps.displayedTest, mask).psnr;
+  metrics.ssim = averageSsim(maps.ssim, mask);
+  if (!mask) metrics.msSsim = computeMsSsim(maps.displayedReference, maps.displayedTest);
+  metrics.flipLdr = poolFlip(maps.flipLdr.map, mask);
+  metrics.ppd = maps.flipLdr.ppd;
+  if (maps.flipHdr) {
+    metrics.flipHdr = poolFlip(maps.flipHdr->map, mask);
+    metrics.startExposure = maps.flipHdr->startExposure;
+    metrics.stopExposure = maps.flipHdr->stopExposure;
+    metrics.numExposures = maps.flipHdr->numExposures;
+  }
+  return metrics;
+}
+
+}  // namespace
+
+// The reference and what is made of it alone.
+class PreparedReference {
+ public:
+  PreparedReference(const Image& image, const MetricsSettings& settings, flip::Reuse reuse)
+      : settings_(settings),
+        reference_(image),
+        displayed_(image, settings),
+        flipLdr_(displayed_.linear(), flip::Mode::ldr, settings.flip, reuse) {
+    if (!settings.srgb) flipHdr_.emplace(reference_, flip::Mode::hdr, settings.flip, reuse);
+  }
+  PreparedReference(const PreparedReference&) = delete;
+  PreparedReference& operator=(const PreparedReference&) = delete;
+
+  MetricsResult compare(const Image& test, const Mask* mask) const;
+
+ private:
+  MetricsSettings settings_;
+  Image reference_;
+  DisplayedImage displayed_;
+  flip::FlipReference flipLdr_;  // both refer to the images above
+  std::optional<flip::FlipReference> flipHdr_;
+};
+
+MetricsResult PreparedReference::compare(const Image& test, const Mask* mask) const {
+  requireComparable(reference_, test);
+  if (mask) requireMaskSize(*mask, reference_.width(), reference_.height());
+  const DisplayedImage displayedTest(test, settings_);
+  PairMaps maps{.reference = reference_,
+                .test = test,
+                .displayedReference = displayed_.values,
+                .displayedTest = displayedTest.values,
+                .ssim = computeSsimMaps(displayed_.values, displayedTest.values),
+                .flipLdr = flipLdr_.compare(displayedTest.linear()),
+                .flipHdr = std::nullopt};
+  if (flipHdr_) maps.flipHdr = flipHdr_->compare(test);
+
+  MetricsResult result;
+  result.whole = metricsOver(maps, nullptr);
+  if (mask && !isEmpty(*mask)) result.masked = metricsOver(maps, mask);
+  result.flipLdrMap = std::move(maps.flipLdr.map);
+  if (maps.flipHdr) result.flipHdrMap = std::move(maps.flipHdr->map);
+  return result;
+}
+
+MetricsReference::MetricsReference(const Image& reference, const MetricsSettings& settings)
+    : prepared_(std::make_shared<const PreparedReference>(reference, settings, flip::Reuse::ifSmall)) {}
+
+MetricsResult MetricsReference::compare(const Image& test, const Mask* mask) const {
+  return prepared_->compare(test, mask);
+}
+
+MetricsResult computeMetrics(const MetricsInput& input, const Mask* mask) {
+  const MetricsSettings settings{
+      .srgb = input.srgb, .exposure = input.exposure, .clampForDisplay = input.clampForDisplay, .flip = input.flip};
+  requireComparable(input.reference, input.test);
+  return PreparedReference(input.reference, settings, flip::Reuse::never).compare(input.test, mask);
+}
+
+}  // namespace pb

@@ -72,7 +72,8 @@ FlipResult computeFlipLdr(const Image& reference, const Image& test, const FlipS
 FlipResult computeFlipHdr(const Image& reference, const Image& test, const FlipSettings& settings = {});
 
 // Pooled values of a map: the mean is the recommended single number. A weighted percentile p is the first of the
-// ascending values at which their running sum exceeds p times their total; 0 for a map of zeros.
+// ascending values at which their running sum exceeds p times their total; 0 for a map of zeros. Values are not
+// negative.
 struct FlipPooled {
   double mean = 0, weightedQ1 = 0, weightedMedian = 0, weightedQ3 = 0, min = 0, max = 0;
 };
@@ -120,14 +121,14 @@ struct MetricsSettings {
 // Scores many test images against one reference: the values of computeMetrics, bit for bit, with the reference's side
 // of both FLIPs done once. That side takes 20 bytes per pixel and exposure; where this is more than 512 MiB it is not
 // kept but recomputed. Immutable: compare() may be called from several threads at once, copies share the content.
+class PreparedReference;
 class MetricsReference {
  public:
   explicit MetricsReference(const Image& reference, const MetricsSettings& settings = {});
   MetricsResult compare(const Image& test, const Mask* mask = nullptr) const;
 
  private:
-  struct Prepared;
-  std::shared_ptr<const Prepared> prepared_;
+  std::shared_ptr<const PreparedReference> prepared_;
 };
 
 // Error maps as pictures: magma for errors, viridis for exposures (matplotlib's CC0 colour maps). Values encoded as

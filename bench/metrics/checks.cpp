@@ -1,0 +1,46 @@
+#include "bench/metrics/checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+bool isFinite(const glm::vec3& value) {
+  return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
+}
+
+}  // namespace
+
+void requireFinite(const Image& image, const char* name) {
+  if (image.empty()) throwInputError("images need at least one pixel, the {} image has none", name);
+  const auto bad = std::find_if_not(image.begin(), image.end(), isFinite);
+  if (bad == image.end()) return;
+  const auto index = bad - image.begin();
+  throwInputError("pixel values must be finite, got ({}, {}, {}) at x = {}, y = {} of the {} image", bad->x, bad->y,
+                  bad->z, index % image.width(), index / image.width(), name);
+}
+
+void requireComparable(const Image& reference, const Image& test) {
+  if (reference.width() != test.width() || reference.height() != test.height()) {
+    throwInputError("images must have equal sizes, the reference has {}x{} and the test image {}x{} pixels",
+                    reference.width(), reference.height(), test.width(), test.height());
+  }
+  requireFinite(reference, "reference");
+  requireFinite(test, "test");
+}
+
+void requireMaskSize(const Mask& mask, int width, int height) {
+  if (mask.width() == width && mask.height() == height) return;
+  throwInputError("a mask must have the size of the images, {}x{}, got {}x{} pixels", width, height, mask.width(),
+                  mask.height());
+}
+
+void throwEmptyMask(const Mask& mask) {
+  throwInputError("a mask must hold at least one pixel, all {}x{} of this one are outside", mask.width(),
+                  mask.height());
+}
+
+}  // namespace pb
