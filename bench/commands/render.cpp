@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/axes.h"
+#include "bench/commands/commands.h"
+#include "bench/interrupt.h"
+#include "bench/suite.h"
+#include "reference/renderer.h"
+#include "scenes/error.h"
+#include "scenes/image_io.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+namespace {
+
+struct RenderOptions {
+  std::string scene, renderer, output, camera;
+  std::string size = "640x360", depth = "converged";
+  int samples = 4, frame = 0, spp = 16;
+  double exposure = 0;
+  std::vector<std::string> settings, aovs;
+};
+
+// What the options say, checked before anything is rendered.
+struct RenderJob {
+  std::shared_ptr<const Scene> scene;
+  ImageSettings image;
+  Technique technique;
+  ReferenceSettings reference;
+  std::string idsPath;  // empty: no object ids are wanted
+};
+
+struct Rendered {
+  Image image;
+  Grid<SampleId> ids;  // empty unless asked for
+};
+
+Technique parseTechnique(const std::vector<std::string>& settings) {
+  Technique technique;
+  for (const std::string& text : settings) {
+    const auto [axis, values] = parseAxisValues(text);
+    if (values.size() != 1) throwInputError("--set of render takes one value, got '{}'", text);
+    setAxis(technique, axis, values.front());
+  }
+  return technique;
+}
+
+std::string parseAovs(const std::vector<std::string>& aovs) {
+  std::string path;
+  for (const std::string& aov : aovs) {
+    if (!aov.starts_with("ids=") || !aov.ends_with(".exr"))
+      throwInputError("--aov wants ids=FILE.exr, the only one there is, got '{}'", aov);
+    path = aov.substr(4);
+  }
+  return path;
+}
+
+void checkOutput(const std::string& path) {
+  if (!path.ends_with(".exr") && !path.ends_with(".png"))
+    throwInputError("an image is written as .exr or .png, got '{}'", path);
+}
+
+RenderJob parseJob(const RenderOptions& options) {
+  checkOutput(options.output);
+  RenderJob job;
+  std::tie(job.image.widthPx, job.image.heightPx) = parseSize(options.size);
+  job.image.samplesPerAxis = samplesPerAxisOf(options.samples);
+  job.technique = parseTechnique(options.settings);
+  job.reference.samplesPerAxis = job.image.samplesPerAxis;
+  job.reference.depth = parseDepth(options.depth);
+  job.reference.spp = options.spp;
+  job.idsPath = parseAovs(options.aovs);
+  job.scene = loadScene(options.scene);
+  return job;
+}
+
+std::shared_ptr<const Snapshot> snapshotOf(const RenderOptions& options, const RenderJob& job, int frame) {
+  return makeSnapshot(job.scene, frame, options.camera, job.image.aspect());
+}
+
+// Renders the frames before as well: what the probes hold depends on them.
+Rendered renderRaster(const RenderOptions& options, const RenderJob& job, const GlobalOptions& globals) {
+  const ImageSettings& image = job.image;
+  RasterDevice device(globals.backend());
+  RasterSequence sequence(device, job.technique, image.widthPx, image.heightPx, image.samplesPerAxis);
+  for (int frame = 0; frame <= options.frame; ++frame) {
+    throwIfInterrupted();
+    sequence.renderFrame(*snapshotOf(options, job, frame));
+  }
+  Rendered rendered{sequence.readImage(), {}};
+  if (!job.idsPath.empty()) rendered.ids = sequence.renderIds(*snapshotOf(options, job, options.frame));
+  return rendered;
+}
+
+Rendered renderReference(const RenderOptions& options, const RenderJob& job) {
+  const ImageSettings& image = job.image;
+  const auto snapshot = snapshotOf(options, job, options.frame);
+  const ReferenceScene scene(snapshot);
+  Rendered rendered;
+  rendered.image =
+      scene.render(snapshot->camera, image.widthPx, image.heightPx, job.reference, &interruptRequested()).mean();
+  if (!job.idsPath.empty())
+    rendered.ids = scene.renderIds(snapshot->camera, image.widthPx, image.heightPx, image.samplesPerAxis);
+  return rendered;
+}
+
+void scaleByStops(Image& image, double stops) {
+  const float scale = static_cast<float>(std::exp2(stops));
+  for (glm::vec3& pixel : image) pixel *= scale;
+}
+
+void writeIds(const std::string& path, const Grid<SampleId>& ids) {
+  // A float holds whole numbers up to 2^24 exactly.
+  std::vector<NamedPlane> planes;
+  for (const char* name : {"instance", "group", "texel"}) planes.push_back({name, Plane(ids.width(), ids.height())});
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    planes[0].plane[i] = static_cast<float>(ids[i].instance);
+    planes[1].plane[i] = static_cast<float>(ids[i].group);
+    planes[2].plane[i] = static_cast<float>(ids[i].texel);
+  }
+  writeExr(path, planes);
+}
+
+int render(const RenderOptions& options, const GlobalOptions& globals) {
+  const RenderJob job = parseJob(options);
+  for (const std::string& warning : job.scene->warnings) fmt::print(stderr, "warning: {}\n", warning);
+  Rendered rendered =
+      options.renderer == "raster" ? renderRaster(options, job, globals) : renderReference(options, job);
+  scaleByStops(rendered.image, options.exposure);
+  writeImage(options.output, rendered.image);
+  if (!job.idsPath.empty()) writeIds(job.idsPath, rendered.ids);
+  return 0;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& action) {
+  CLI::App* command = app.add_subcommand("render", "one picture of a scene");
+  const auto options = std::make_shared<RenderOptions>();
+  command->add_option("SCENE", options->scene, "a .gltf or .glb file, or builtin:NAME, with ?key=value options")
+      ->required();
+  command->add_option("--with", options->renderer, "raster or reference")
+      ->required()
+      ->check(CLI::IsMember({"raster", "reference"}));
+  command->add_option("-o", options->output, "the picture: .exr or .png")->required();
+  command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
+  command->add_option("--samples", options->samples, "primary samples a pixel: 1, 4, 9, ..")->capture_default_str();
+  command->add_option("--camera", options->camera, "name of a camera; the first if absent");
+  command->add_option("--frame", options->frame, "frame of the animation")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--set", options->settings, "AXIS=VALUE of the raster; see `probebench axes list`");
+  command->add_option("--depth", options->depth, "specular bounces of the reference")->capture_default_str();
+  command->add_option("--spp", options->spp, "samples per primary sample of the reference, even")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const std::optional<long long> spp = parseInteger(text);
+            return spp && *spp >= 2 && *spp <= 65536 && *spp % 2 == 0
+                       ? std::string()
+                       : fmt::format("wants an even number from 2 to 65536, got {}", text);
+          },
+          "EVEN"))
+      ->capture_default_str();
+  command->add_option("--exposure", options->exposure, "stops")->check(CLI::Range(-32.0, 32.0))->capture_default_str();
+  command->add_option("--aov", options->aovs, "ids=FILE.exr: what each primary sample shows");
+  command->callback(
+      [&action, &globals, options] { action = [&globals, options] { return render(*options, globals); }; });
+}
+
+}  // namespace pb

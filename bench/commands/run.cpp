@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bench/axes.h"
+#include "bench/certify.h"
+#include "bench/commands/commands.h"
+#include "bench/plan.h"
+#include "bench/provenance.h"
+#include "bench/report.h"
+#include "bench/runner.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+struct RunOptions {
+  std::string suite, output, store;
+  std::vector<std::string> scenes, settings;
+  std::optional<std::string> only, shard;
+  bool resume = false, dryRun = false;
+};
+
+// The suite as the options change it.
+Suite effectiveSuite(const RunOptions& options) {
+  Suite suite = loadSuite(options.suite);
+  if (!options.scenes.empty()) {
+    const SuiteScene like = suite.scenes.front();
+    suite.scenes.clear();
+    for (const std::string& reference : options.scenes) suite.scenes.push_back(sceneLike(like, reference));
+  }
+  for (const std::string& text : options.settings) setGridAxis(suite, parseAxisValues(text));
+  return suite;
+}
+
+PlanFilter filterOf(const RunOptions& options) {
+  return {options.only, options.shard ? parseShard(*options.shard) : Shard()};
+}
+
+void printWarnings(const Scenes& scenes) {
+  for (const auto& scene : scenes)
+    for (const std::string& warning : scene->warnings) fmt::print(stderr, "warning: {}: {}\n", scene->name, warning);
+}
+
+// The suite's numbers mean nothing if the two renderers disagree where nothing is approximated.
+std::string passControl(RasterDevice& device, Progress& progress) {
+  progress.begin("control", 1);
+  const std::vector<Check> checks = runControl(device);
+  progress.step();
+  progress.end();
+  if (!allPassed(checks)) throw Error(Failure::verdict, "the control failed, no suite is run: " + summary(checks));
+  return summary(checks);
+}
+
+int finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& suite, RunDirectory& directory) {
+  const Results results{std::move(provenance), suite.tolerance, outcome.cells};
+  directory.finish(results, outcome.benchmarkJson);
+  fmt::print("{}", makeReport(results));
+  fmt::print(stderr, "report: {}\n", (directory.folder() / "report.md").string());
+  if (outcome.noisyCells.empty()) return 0;
+  throw Error(Failure::inconclusive, fmt::format("{} references are too noisy; the first: {}",
+                                                 outcome.noisyCells.size(), outcome.noisyCells.front()));
+}
+
+int run(const RunOptions& options, const GlobalOptions& globals) {
+  Suite suite = effectiveSuite(options);
+  const Scenes scenes = loadScenes(suite);
+  const Plan plan = makePlan(suite, filterOf(options));
+  if (options.dryRun) {
+    fmt::print("{}", printPlan(suite, plan));
+    return 0;
+  }
+  fmt::print(stderr, "{}", printPlan(suite, plan));
+  printWarnings(scenes);
+
+  RasterDevice device(globals.backend());
+  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
+  RunDirectory directory(options.output.empty() ? "out/" + suite.name : options.output,
+                         {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
+  Progress progress;
+  provenance.controlOutcome = passControl(device, progress);
+  const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
+  const RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
+  return finishRun(outcome, std::move(provenance), suite, directory);
+}
+
+// Says what an interrupt leaves behind.
+int runOrExplain(const RunOptions& options, const GlobalOptions& globals) {
+  try {
+    return run(options, globals);
+  } catch (const Error& error) {
+    if (error.kind() != Failure::interrupted) throw;
+    throw Error(Failure::interrupted, "interrupted; finished cells are kept, the same command with --resume goes on");
+  }
+}
+
+}  // namespace
+
+void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action) {
+  CLI::App* command = app.add_subcommand("run", "run a suite: errors, costs, tables");
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("SUITE", options->suite, "a .toml file or the name of a shipped suite")->required();
+  command->add_option("--out", options->output, "folder of the run (default out/SUITE)");
+  command->add_option("--scene", options->scenes, "in place of the suite's scenes; repeatable")->expected(1);
+  command->add_option("--set", options->settings, "AXIS=V1,V2..: in place of the suite's values; repeatable")
+      ->expected(1);
+  command->add_option("--only", options->only, "only cells whose key matches this regular expression");
+  command->add_option("--shard", options->shard, "I/N: only part I of N; see merge");
+  command->add_option("--store", options->store, "folder of stored references");
+  command->add_flag("--resume", options->resume, "go on with a run that was stopped");
+  command->add_flag("--dry-run", options->dryRun, "print what would be measured");
+  command->callback(
+      [&action, &globals, options] { action = [&globals, options] { return runOrExplain(*options, globals); }; });
+}
+
+}  // namespace pb

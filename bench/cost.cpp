@@ -1,0 +1,232 @@
+#include "bench/cost.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <numeric>
+#include <sstream>
+
+#include "bench/interrupt.h"
+#include "bench/statistics.h"
+#include "raster/refresh.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+using Snapshots = std::vector<std::shared_ptr<const Snapshot>>;
+
+constexpr int kPlainFrames = 4;  // at least; a plain frame is short against the clock's disturbances
+
+double meanOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double totalMs(const PassTimes& passes) {
+  return std::accumulate(passes.captureMs.begin(), passes.captureMs.end(), passes.finalMs);
+}
+
+// One technique on one scene over all repetitions.
+class Measurement {
+ public:
+  Measurement(RasterDevice& device, const ImageSettings& image, const CostRequest& request)
+      : software_(device.info().software),
+        snapshots_(request.snapshots),
+        sequence_(device, request.technique, image.widthPx, image.heightPx, 1),
+        plain_(device, plainTechnique(request.technique), image.widthPx, image.heightPx, 1) {
+    warmUp();
+  }
+
+  void measure(benchmark::State& state) {
+    std::vector<double> frames;
+    std::size_t next = 1;
+    for (auto iteration : state) {
+      frames.push_back(renderMs(sequence_, *snapshots_[next++]));
+      state.SetIterationTime(frames.back() * 1e-3);
+    }
+    const double plainMs = measurePlain();
+    frameMs_.push_back(meanOf(frames));
+    plainMs_.push_back(plainMs);
+    ratios_.push_back(frameMs_.back() / plainMs);
+    state.counters["plain_ms"] = plainMs;
+    state.counters["ratio"] = ratios_.back();
+  }
+
+  std::size_t repetitions() const { return ratios_.size(); }
+
+  CostResult result(const RenderCount& model) {
+    CostResult cost;
+    cost.repetitions = static_cast<int>(ratios_.size());
+    const MedianInterval frame = medianInterval(frameMs_);
+    cost.frameMs = frame.median;
+    cost.frameMsLow = frame.low;
+    cost.frameMsHigh = frame.high;
+    cost.plainMs = median(plainMs_);
+    const MedianInterval ratio = medianInterval(ratios_);
+    cost.ratio = ratio.median;
+    cost.ratioLow = ratio.low;
+    cost.ratioHigh = ratio.high;
+    cost.rendersPerFrame = model.perFrame;
+    cost.rendersFormula = model.formula;
+    cost.measuredRendersPerFrame = 1 + facesPerFrame_;
+    addPassTimes(cost);
+    return cost;
+  }
+
+ private:
+  static Technique plainTechnique(Technique technique) {
+    technique.probes = ProbeUse::environmentOnly;
+    return technique;
+  }
+
+  double frameCount() const { return static_cast<double>(snapshots_.size() - 1); }
+
+  // Also counts the captures of a block, which every later block repeats.
+  void warmUp() {
+    sequence_.renderFrame(*snapshots_[0]);
+    for (std::size_t i = 1; i < snapshots_.size(); ++i)
+      facesPerFrame_ +=
+          static_cast<double>(sequence_.renderFrame(*snapshots_[i]).counters.facesCaptured) / frameCount();
+    sequence_.finish();
+    measurePlain();
+  }
+
+  // Software renderers draw while the calls return: wall time up to the idle device. On a GPU timer queries leave the
+  // waiting for submission out.
+  double renderMs(RasterSequence& sequence, const Snapshot& snapshot) const {
+    if (!software_) return totalMs(sequence.renderFrameTimed(snapshot));
+    const auto start = std::chrono::steady_clock::now();
+    sequence.renderFrame(snapshot);
+    sequence.finish();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  double measurePlain() {
+    const std::size_t blocks = (kPlainFrames + snapshots_.size() - 2) / (snapshots_.size() - 1);
+    std::vector<double> frames;
+    for (std::size_t block = 0; block < blocks; ++block)
+      for (std::size_t i = 1; i < snapshots_.size(); ++i) frames.push_back(renderMs(plain_, *snapshots_[i]));
+    return meanOf(frames);
+  }
+
+  void addPassTimes(CostResult& cost) {
+    for (std::size_t i = 1; i < snapshots_.size(); ++i) {
+      const PassTimes passes = sequence_.renderFrameTimed(*snapshots_[i]);
+      cost.captureMs.resize(std::max(cost.captureMs.size(), passes.captureMs.size()), 0.0);
+      for (std::size_t b = 0; b < passes.captureMs.size(); ++b) cost.captureMs[b] += passes.captureMs[b] / frameCount();
+      cost.finalMs += passes.finalMs / frameCount();
+    }
+  }
+
+  bool software_;
+  const Snapshots& snapshots_;
+  RasterSequence sequence_, plain_;
+  double facesPerFrame_ = 0;
+  std::vector<double> frameMs_, plainMs_, ratios_;  // one a repetition
+};
+
+// Runs the registered benchmarks. Google Benchmark does not expect exceptions: the first is kept, and what comes after
+// it is skipped.
+class CostSession {
+ public:
+  CostSession(RasterDevice& device, const ImageSettings& image, const std::vector<CostRequest>& requests,
+              int repetitions, const std::function<void()>& finished)
+      : device_(device), image_(image), requests_(requests), repetitions_(repetitions), finished_(finished) {}
+
+  CostRun run() {
+    registerAll();
+    std::ostringstream json;
+    benchmark::JSONReporter reporter;
+    reporter.SetOutputStream(&json);
+    benchmark::RunSpecifiedBenchmarks(&reporter);
+    benchmark::ClearRegisteredBenchmarks();
+    if (failure_) std::rethrow_exception(failure_);
+    return {std::move(results_), json.str()};
+  }
+
+ private:
+  void registerAll() {
+    benchmark::ClearRegisteredBenchmarks();
+    for (const CostRequest& request : requests_)
+      benchmark::RegisterBenchmark(request.name.c_str(),
+                                   [this, &request](benchmark::State& state) { repeat(state, request); })
+          ->Iterations(static_cast<benchmark::IterationCount>(request.snapshots.size() - 1))
+          ->Repetitions(repetitions_)
+          ->UseManualTime()
+          ->MeasureProcessCPUTime()
+          ->Unit(benchmark::kMillisecond);
+  }
+
+  // Called once a repetition, the repetitions of a request one after the other.
+  void repeat(benchmark::State& state, const CostRequest& request) {
+    if (failure_) return state.SkipWithError("an earlier measurement failed");
+    try {
+      if (!current_) start(request);
+      current_->measure(state);
+      if (current_->repetitions() == static_cast<std::size_t>(repetitions_)) finish(request);
+    } catch (...) {
+      failure_ = std::current_exception();
+      current_.reset();
+      state.SkipWithError("the measurement failed");
+    }
+  }
+
+  void start(const CostRequest& request) {
+    throwIfInterrupted();
+    current_ = std::make_unique<Measurement>(device_, image_, request);
+  }
+
+  void finish(const CostRequest& request) {
+    results_.push_back(current_->result(modelRenders(request.technique, request.snapshots)));
+    current_.reset();
+    finished_();
+  }
+
+  RasterDevice& device_;
+  const ImageSettings& image_;
+  const std::vector<CostRequest>& requests_;
+  int repetitions_;
+  const std::function<void()>& finished_;
+  std::unique_ptr<Measurement> current_;
+  std::vector<CostResult> results_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+int blockFrames(const Technique& technique, int probes, int measuredFrames) {
+  const int cycle = std::max(1, refreshPolicy(technique.refresh).cycle(technique.refresh, probes));
+  const int cycles = std::max(1, (measuredFrames + cycle - 1) / cycle);
+  return static_cast<int>(std::min<long long>(static_cast<long long>(cycle) * cycles, kMaxBlockFrames));
+}
+
+RenderCount modelRenders(const Technique& technique, const Snapshots& snapshots) {
+  RefreshHistory history;
+  double faces = 0;
+  // The first frame captures everything; the second pass over the block is the one that repeats for ever.
+  advance(history, dueFaces(technique.refresh, history, *snapshots[0]), *snapshots[0]);
+  for (int pass = 0; pass < 2; ++pass) {
+    faces = 0;
+    for (std::size_t i = 1; i < snapshots.size(); ++i) {
+      const std::vector<ProbeFace> due = dueFaces(technique.refresh, history, *snapshots[i]);
+      faces += static_cast<double>(due.size());
+      advance(history, due, *snapshots[i]);
+    }
+  }
+  RenderCount count;
+  count.perFrame = 1 + technique.bounces * faces / static_cast<double>(snapshots.size() - 1);
+  const bool everyFrame = technique.refresh.name == "every-frame";
+  count.formula = fmt::format("{} = {:.4g}", everyFrame ? "6*N*B+1" : "1+B*faces", count.perFrame);
+  return count;
+}
+
+CostRun measureCosts(RasterDevice& device, const ImageSettings& image, const std::vector<CostRequest>& requests,
+                     int repetitions, const std::map<std::string, std::string>& context,
+                     const std::function<void()>& finished) {
+  for (const auto& [key, value] : context) benchmark::AddCustomContext(key, value);
+  return CostSession(device, image, requests, repetitions, finished).run();
+}
+
+}  // namespace pb

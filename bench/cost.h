@@ -1,0 +1,51 @@
+// Frame cost, measured through Google Benchmark with manual time, nothing else running. Method: docs/suites.md.
+//
+// A repetition is a block of frames followed at once by a block of plain frames, so that both see the machine in the
+// same state and their ratio is paired. The first frame of a sequence (complete capture) and one block of warm-up are
+// not counted.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/results.h"
+#include "bench/suite.h"
+#include "raster/renderer.h"
+
+namespace pb {
+
+// Frames of a block: whole refresh cycles that cover at least `measuredFrames` (those of the suite, so that a moving
+// scene is measured while it moves), limited so that slow policies stay measurable.
+inline constexpr int kMaxBlockFrames = 120;
+int blockFrames(const Technique& technique, int probes, int measuredFrames);
+
+// The cost model: renders of the scene per frame, 1 + B * scheduled faces, mean over `frames` after the first of
+// `snapshots` was captured completely.
+struct RenderCount {
+  double perFrame = 0;
+  std::string formula;  // "6*N*B+1 = 31" or "1+B*faces = 4"
+};
+RenderCount modelRenders(const Technique& technique, const std::vector<std::shared_ptr<const Snapshot>>& snapshots);
+
+struct CostRequest {
+  std::string name;  // of the benchmark
+  Technique technique;
+  // The first frame of the sequence, then the frames of a block.
+  std::vector<std::shared_ptr<const Snapshot>> snapshots;
+};
+
+struct CostRun {
+  std::vector<CostResult> results;  // one a request
+  std::string benchmarkJson;        // Google Benchmark's own schema
+};
+
+// Measures at one sample a pixel. `context` is written into the JSON's context; `finished` is called after each
+// request. Throws Error(Failure::interrupted) at the next request's boundary after an interrupt.
+CostRun measureCosts(RasterDevice& device, const ImageSettings& image, const std::vector<CostRequest>& requests,
+                     int repetitions, const std::map<std::string, std::string>& context,
+                     const std::function<void()>& finished);
+
+}  // namespace pb

@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "bench/commands/commands.h"
+#include "bench/interrupt.h"
+#include "bench/version.h"
+#include "scenes/error.h"
+
+namespace {
+
+int fail(const std::string& sentence, pb::Failure kind) {
+  fmt::print(stderr, "probebench: {}\n", sentence);
+  return static_cast<int>(kind);
+}
+
+// Runs the command; everything that can go wrong ends here.
+int perform(const pb::Action& action) {
+  try {
+    const int exitCode = action();
+    if (std::fflush(stdout) != 0) pb::throwEnvironmentError("standard output can't be written");
+    return exitCode;
+  } catch (const pb::Error& error) {
+    return fail(error.what(), error.kind());
+  } catch (const std::bad_alloc&) {
+    return fail("memory is exhausted", pb::Failure::environment);
+  } catch (const std::exception& error) {
+    return fail(error.what(), pb::Failure::environment);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("How wrong are dynamic cube maps, and what do they cost?", "probebench");
+  pb::GlobalOptions globals;
+  pb::Action action;
+  pb::addGlobalOptions(app, globals);
+  pb::addCommands(app, globals, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return fail(std::string(error.what()) + "; see probebench --help", pb::Failure::input);
+  }
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(globals.threadCount()));
+  pb::installInterruptHandler();
+  return perform(action);
+}

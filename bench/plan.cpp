@@ -1,0 +1,116 @@
+#include "bench/plan.h"
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "bench/axes.h"
+#include "scenes/error.h"
+#include "scenes/spec.h"
+
+namespace pb {
+namespace {
+
+constexpr std::size_t kMaxSequences = 100'000;
+
+std::vector<Technique> expandGrid(const Suite& suite) {
+  std::vector<Technique> techniques{suite.technique};
+  for (const auto& [axis, values] : suite.grid) {
+    std::vector<Technique> expanded;
+    for (const Technique& base : techniques)
+      for (const std::string& value : values) {
+        expanded.push_back(base);
+        setAxis(expanded.back(), axis, value);
+      }
+    if (expanded.size() * suite.scenes.size() > kMaxSequences)
+      throwInputError("a grid may have at most {} techniques times scenes, got more at axis '{}'", kMaxSequences, axis);
+    techniques = std::move(expanded);
+  }
+  return techniques;
+}
+
+std::regex compile(const std::string& expression) {
+  try {
+    return std::regex(expression);
+  } catch (const std::regex_error&) {
+    throwInputError("--only wants a regular expression, got '{}'", expression);
+  }
+}
+
+void keepOnly(const Suite& suite, const std::string& expression, std::vector<PlannedSequence>& sequences) {
+  const std::regex regex = compile(expression);
+  for (PlannedSequence& sequence : sequences)
+    std::erase_if(sequence.frames,
+                  [&](int frame) { return !std::regex_search(makeCell(suite, sequence, frame).key(), regex); });
+  std::erase_if(sequences, [](const PlannedSequence& sequence) { return sequence.frames.empty(); });
+  if (sequences.empty()) throwInputError("--only '{}' matches no cell of suite '{}'", expression, suite.name);
+}
+
+void keepShard(const Shard& shard, std::vector<PlannedSequence>& sequences) {
+  const auto boundary = [&](int part) { return static_cast<std::ptrdiff_t>(sequences.size()) * part / shard.count; };
+  sequences = std::vector(sequences.begin() + boundary(shard.index - 1), sequences.begin() + boundary(shard.index));
+  if (sequences.empty()) throwInputError("shard {}/{} is empty, use fewer shards", shard.index, shard.count);
+}
+
+}  // namespace
+
+std::size_t Plan::cellCount() const {
+  std::size_t count = 0;
+  for (const PlannedSequence& sequence : sequences) count += sequence.frames.size();
+  return count;
+}
+
+std::vector<int> Plan::framesOf(std::size_t scene) const {
+  std::set<int> frames;
+  for (const PlannedSequence& sequence : sequences)
+    if (sequence.scene == scene) frames.insert(sequence.frames.begin(), sequence.frames.end());
+  return {frames.begin(), frames.end()};
+}
+
+Shard parseShard(std::string_view text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::optional<long long> index = parseInteger(text.substr(0, slash));
+  const std::optional<long long> count = parseInteger(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !count || *index < 1 || *count < *index || *count > static_cast<long long>(kMaxSequences))
+    throwInputError("--shard wants I/N with 1 <= I <= N, got '{}'", text);
+  return {static_cast<int>(*index), static_cast<int>(*count)};
+}
+
+Plan makePlan(const Suite& suite, const PlanFilter& filter) {
+  const std::vector<Technique> techniques = expandGrid(suite);
+  Plan plan;
+  for (std::size_t scene = 0; scene < suite.scenes.size(); ++scene)
+    for (const Technique& technique : techniques)
+      plan.sequences.push_back({scene, technique, suite.scenes[scene].frames});
+  if (filter.only) keepOnly(suite, *filter.only, plan.sequences);
+  keepShard(filter.shard, plan.sequences);
+  return plan;
+}
+
+CellResult makeCell(const Suite& suite, const PlannedSequence& sequence, int frame) {
+  CellResult cell;
+  cell.scene = suite.scenes[sequence.scene].name;
+  cell.camera = suite.scenes[sequence.scene].camera;
+  cell.frame = frame;
+  cell.technique = describe(sequence.technique);
+  return cell;
+}
+
+std::string printPlan(const Suite& suite, const Plan& plan) {
+  std::string text = fmt::format("suite {}: {}x{}, {} samples a pixel\n", suite.name, suite.image.widthPx,
+                                 suite.image.heightPx, suite.image.samplesPerAxis * suite.image.samplesPerAxis);
+  for (const auto& [axis, values] : suite.grid) text += fmt::format("  {}: {}\n", axis, fmt::join(values, ", "));
+  std::size_t references = 0;
+  for (std::size_t scene = 0; scene < suite.scenes.size(); ++scene) {
+    const std::size_t frames = plan.framesOf(scene).size();
+    references += frames;
+    const auto sequences = std::ranges::count(plan.sequences, scene, &PlannedSequence::scene);
+    text += fmt::format("  {}: {} sequences, {} measured frames\n", suite.scenes[scene].name, sequences, frames);
+  }
+  text += fmt::format("{} cells in {} raster sequences, {} references, {} cost measurements of {} repetitions\n",
+                      plan.cellCount(), plan.sequences.size(), references,
+                      suite.cost.repetitions > 0 ? plan.sequences.size() : 0, suite.cost.repetitions);
+  return text;
+}
+
+}  // namespace pb

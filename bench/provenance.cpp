@@ -1,0 +1,57 @@
+#include "bench/provenance.h"
+
+#include <fmt/format.h>
+
+#include "bench/hash.h"
+#include "bench/version.h"
+
+namespace pb {
+namespace {
+
+std::vector<std::pair<std::string, std::string>> settingsOf(const Suite& suite) {
+  const ImageSettings& image = suite.image;
+  const TruthSettings& reference = suite.reference;
+  return {{"image", fmt::format("{}x{}", image.widthPx, image.heightPx)},
+          {"samples", fmt::format("{} a pixel", image.samplesPerAxis * image.samplesPerAxis)},
+          {"reference depth", reference.depth ? std::to_string(*reference.depth) : "converged"},
+          {"reference diffuse", "local"},
+          {"reference spp", fmt::format("{} a primary sample", reference.spp)},
+          {"reference max_noise", reference.maxNoise ? fmt::format("{:g}", *reference.maxNoise) : "none"},
+          {"cost repetitions", std::to_string(suite.cost.repetitions)}};
+}
+
+}  // namespace
+
+Provenance makeProvenance(const Suite& suite, const Scenes& scenes, const GlInfo& gl, int threads) {
+  Provenance provenance;
+  provenance.toolVersion = toolVersion();
+  provenance.gitHash = gitHash();
+  provenance.suiteName = suite.name;
+  provenance.suiteHash = hexHash(canonicalText(suite));
+  provenance.startedAt = timestamp();
+  provenance.cpu = cpuName();
+  provenance.threads = threads;
+  provenance.glBackend = gl.backend;
+  provenance.glRenderer = gl.renderer;
+  provenance.glVersion = gl.version;
+  provenance.libraries = libraryVersions();
+  provenance.settings = settingsOf(suite);
+  provenance.seed = ReferenceSettings().seed;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SuiteScene& scene = suite.scenes[i];
+    const auto snapshot = makeSnapshot(scenes[i], scene.frames.front(), scene.camera, suite.image.aspect());
+    provenance.sceneHashes[scene.name] = fmt::format("{:016x}", contentHash(*snapshot));
+  }
+  return provenance;
+}
+
+std::string fingerprint(const Provenance& provenance, const Plan& plan, const Suite& suite) {
+  std::string text = fmt::format("{} {} {} {} {}\n", provenance.toolVersion, provenance.gitHash, provenance.suiteHash,
+                                 provenance.glRenderer, provenance.glVersion);
+  for (const auto& [scene, hash] : provenance.sceneHashes) text += fmt::format("{} {}\n", scene, hash);
+  for (const PlannedSequence& sequence : plan.sequences)
+    text += fmt::format("{} {}\n", makeCell(suite, sequence, 0).sequenceKey(), fmt::join(sequence.frames, ","));
+  return hexHash(text);
+}
+
+}  // namespace pb

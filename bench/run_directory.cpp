@@ -1,0 +1,117 @@
+#include "bench/run_directory.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "bench/report.h"
+#include "scenes/error.h"
+#include "scenes/files.h"
+
+namespace pb {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMarker = "run.json";
+constexpr const char* kJournal = "journal.jsonl";
+// What a run writes, and what it removes of an earlier one; nothing else in the folder is touched.
+constexpr const char* kFiles[] = {kJournal, "results.json", "results.csv", "benchmark.json", "report.md", "report.csv"};
+constexpr const char* kImages = "images";
+
+void makeFolder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure || !fs::is_directory(folder))
+    throwEnvironmentError("output folder '{}' can't be made: {}", folder.string(),
+                          failure ? failure.message() : "a file of that name is there");
+}
+
+bool isEmpty(const fs::path& folder) {
+  std::error_code failure;
+  const fs::directory_iterator entries(folder, failure);
+  if (failure) throwEnvironmentError("output folder '{}' can't be read: {}", folder.string(), failure.message());
+  return entries == fs::directory_iterator();
+}
+
+// nullopt for a folder without the marker.
+std::optional<RunIdentity> readMarker(const fs::path& folder) {
+  const std::string path = (folder / kMarker).string();
+  if (!fs::exists(path)) return std::nullopt;
+  try {
+    const Json marker = Json::parse(readFile(path));
+    return RunIdentity{marker.at("suite").get<std::string>(), marker.at("fingerprint").get<std::string>()};
+  } catch (const Json::exception&) {
+    throwInputError("'{}' was not written by probebench, choose another --out", path);
+  }
+}
+
+void writeMarker(const fs::path& folder, const RunIdentity& identity) {
+  const Json marker = {{"suite", identity.suite}, {"fingerprint", identity.fingerprint}};
+  writeFileAtomically((folder / kMarker).string(), marker.dump(2) + "\n");
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(fs::path folder, const RunIdentity& identity, bool resume) : folder_(std::move(folder)) {
+  makeFolder(folder_);
+  const std::optional<RunIdentity> earlier = readMarker(folder_);
+  if (!earlier && !isEmpty(folder_))
+    throwInputError("output folder '{}' is not empty and was not made by probebench, choose another --out",
+                    folder_.string());
+  if (earlier && earlier->suite != identity.suite)
+    throwInputError("output folder '{}' holds a run of suite '{}', choose another --out for suite '{}'",
+                    folder_.string(), earlier->suite, identity.suite);
+  if (resume && earlier && earlier->fingerprint != identity.fingerprint)
+    throwInputError("--resume wants the same suite, options, program and GL driver as the run in '{}' was started with",
+                    folder_.string());
+  if (earlier && !resume) removeEarlierRun();
+  writeMarker(folder_, identity);
+  makeFolder(imagesFolder());
+  if (resume) readJournal();
+}
+
+void RunDirectory::removeEarlierRun() const {
+  std::error_code failure;
+  for (const char* file : kFiles) {
+    fs::remove(folder_ / file, failure);
+    if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / file).string(), failure.message());
+  }
+  fs::remove_all(folder_ / kImages, failure);
+  if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / kImages).string(), failure.message());
+}
+
+void RunDirectory::readJournal() {
+  const std::string path = (folder_ / kJournal).string();
+  if (!fs::exists(path)) return;
+  std::istringstream lines(readFile(path));
+  std::string complete;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    // A kill may have torn the last line: it has no end, and its cell is measured again.
+    if (lines.eof()) break;
+    finished_.push_back(cellFromJson(line, fmt::format("{}:{}", path, ++number)));
+    complete += line + '\n';
+  }
+  writeFileAtomically(path, complete);
+}
+
+void RunDirectory::append(const CellResult& cell) {
+  const std::lock_guard lock(journalMutex_);
+  const std::string path = (folder_ / kJournal).string();
+  std::ofstream journal(path, std::ios::app | std::ios::binary);
+  journal << toJson(cell) << '\n' << std::flush;
+  if (!journal) throwEnvironmentError("'{}' can't be written: is the disk full or the folder read-only?", path);
+}
+
+void RunDirectory::finish(const Results& results, const std::string& benchmarkJson) {
+  const auto path = [&](const char* name) { return (folder_ / name).string(); };
+  if (!benchmarkJson.empty()) writeFileAtomically(path("benchmark.json"), benchmarkJson);
+  writeFileAtomically(path("results.csv"), toCsv(results));
+  writeReport(results, folder_.string());
+  writeFileAtomically(path("results.json"), toJson(results));
+}
+
+}  // namespace pb

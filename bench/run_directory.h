@@ -1,0 +1,48 @@
+// The folder of a run: what may be written there, and the journal that lets a killed run go on.
+//
+// run.json marks a folder as made by `probebench run` and says for which suite; journal.jsonl holds one finished cell a
+// line. A folder that is not empty and has no run.json, or one of another suite, is never touched.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "bench/results.h"
+
+namespace pb {
+
+struct RunIdentity {
+  std::string suite;        // name
+  std::string fingerprint;  // of everything that determines the numbers; a run goes on only with the same
+};
+
+class RunDirectory {
+ public:
+  // Makes the folder if it is absent. Without `resume` an earlier run of the same suite is removed. Throws an input
+  // Error for a folder that may not be used, an environment Error for one that can't be written.
+  RunDirectory(std::filesystem::path folder, const RunIdentity& identity, bool resume);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::filesystem::path imagesFolder() const { return folder_ / "images"; }
+
+  // Cells that an earlier, killed run has finished; empty without `resume`.
+  const std::vector<CellResult>& finishedCells() const { return finished_; }
+
+  // Appends a finished cell to the journal. From any thread.
+  void append(const CellResult& cell);
+
+  // Writes results.json, results.csv, benchmark.json (unless empty) and the report; the journal has then served.
+  void finish(const Results& results, const std::string& benchmarkJson);
+
+ private:
+  void removeEarlierRun() const;
+  void readJournal();
+
+  std::filesystem::path folder_;
+  std::vector<CellResult> finished_;
+  std::mutex journalMutex_;
+};
+
+}  // namespace pb

@@ -1,0 +1,278 @@
+#include "bench/runner.h"
+
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <set>
+
+#include "bench/axes.h"
+#include "bench/cost.h"
+#include "bench/interrupt.h"
+#include "bench/noise.h"
+#include "bench/truth.h"
+#include "bench/version.h"
+#include "scenes/error.h"
+#include "scenes/image_io.h"
+
+namespace pb {
+namespace {
+
+constexpr int kMaxWaitingCells = 8;  // images that wait for their metrics
+
+// Work beside the calling thread, with a bound on what waits. run() and wait() throw what a task threw.
+class TaskQueue {
+ public:
+  // What waits is finished even when the caller unwinds: cells that are rendered are kept.
+  ~TaskQueue() {
+    try {
+      group_.wait();
+    } catch (...) {  // the caller is on its way out with the first failure
+    }
+  }
+
+  template <class Task>
+  void run(Task task) {
+    // With one thread nothing else takes tasks up: waiting here runs them.
+    if (waiting_ >= kMaxWaitingCells) wait();
+    ++waiting_;
+    group_.run([this, task = std::move(task)] {
+      task();
+      --waiting_;
+    });
+  }
+
+  void wait() {
+    group_.wait();
+    waiting_ = 0;
+  }
+
+ private:
+  tbb::task_group group_;
+  std::atomic<int> waiting_{0};
+};
+
+std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameCounters& counters) {
+  return {{"faces_captured", counters.facesCaptured}, {"draws", counters.draws},
+          {"triangles", counters.triangles},          {"fragments", counters.fragments},
+          {"probe_bytes", counters.probeBytes},       {"texels_filtered", counters.texelsFiltered}};
+}
+
+std::vector<double> meanAges(const std::vector<std::array<std::int64_t, 6>>& ages) {
+  std::vector<double> means;
+  for (const auto& faces : ages)
+    means.push_back(static_cast<double>(std::accumulate(faces.begin(), faces.end(), std::int64_t{0})) / 6.0);
+  return means;
+}
+
+// Letters, digits and a few signs stay; anything else would be a surprise in a file name.
+std::string fileName(std::string text) {
+  for (char& c : text)
+    if (std::string_view("/\\:?&*\"'<>| \t\n").find(c) != std::string_view::npos) c = '_';
+  return text;
+}
+
+class Runner {
+ public:
+  explicit Runner(const RunContext& context) : c_(context) {
+    for (const CellResult& cell : c_.directory.finishedCells()) finished_.emplace(cell.key(), cell);
+  }
+
+  RunOutcome run() {
+    measureErrors();
+    RunOutcome outcome;
+    outcome.cells = orderedCells();
+    if (c_.suite.cost.repetitions > 0) outcome.benchmarkJson = measureCost(outcome.cells);
+    outcome.noisyCells = noisyCells_;
+    return outcome;
+  }
+
+ private:
+  using Truths = std::map<int, std::shared_ptr<const Truth>>;  // by frame
+
+  const SuiteScene& suiteScene(std::size_t scene) const { return c_.suite.scenes[scene]; }
+
+  // Frames before 0 show frame 0: warm-up of a scene that stands still until then.
+  std::shared_ptr<const Snapshot> snapshot(std::size_t scene, int frame) const {
+    return makeSnapshot(c_.scenes[scene], std::max(frame, 0), suiteScene(scene).camera, c_.suite.image.aspect());
+  }
+
+  bool isFinished(const PlannedSequence& sequence, int frame) {
+    const std::lock_guard lock(mutex_);
+    return finished_.contains(makeCell(c_.suite, sequence, frame).key());
+  }
+
+  std::vector<int> openFrames(const PlannedSequence& sequence) {
+    std::vector<int> open;
+    std::ranges::copy_if(sequence.frames, std::back_inserter(open),
+                         [&](int frame) { return !isFinished(sequence, frame); });
+    return open;
+  }
+
+  void measureErrors() {
+    for (std::size_t scene = 0; scene < c_.suite.scenes.size(); ++scene) measureScene(scene);
+  }
+
+  // The truths of one scene at a time are in memory.
+  void measureScene(std::size_t scene) {
+    std::vector<const PlannedSequence*> sequences;
+    std::set<int> frames;
+    std::size_t cells = 0;
+    for (const PlannedSequence& sequence : c_.plan.sequences) {
+      if (sequence.scene != scene) continue;
+      const std::vector<int> open = openFrames(sequence);
+      if (open.empty()) continue;
+      sequences.push_back(&sequence);
+      frames.insert(open.begin(), open.end());
+      cells += open.size();
+    }
+    if (sequences.empty()) return;
+    const Truths truths = makeTruths(scene, frames);
+    c_.progress.begin(fmt::format("errors of {}", suiteScene(scene).name), cells);
+    TaskQueue queue;
+    for (const PlannedSequence* sequence : sequences) measureSequence(*sequence, truths, queue);
+    queue.wait();
+    c_.progress.end();
+  }
+
+  Truths makeTruths(std::size_t scene, const std::set<int>& frames) {
+    Technique noProbes;
+    noProbes.probes = ProbeUse::environmentOnly;
+    RasterSequence idRaster(c_.device, noProbes, c_.suite.image.widthPx, c_.suite.image.heightPx,
+                            c_.suite.image.samplesPerAxis);
+    const TruthMaker maker(c_.store, c_.suite.image, c_.suite.reference,
+                           [&](const Snapshot& s) { return idRaster.renderIds(s); });
+    c_.progress.begin(fmt::format("references of {}", suiteScene(scene).name), frames.size());
+    Truths truths;
+    std::vector<std::string> warnings;
+    for (const int frame : frames) {
+      throwIfInterrupted();
+      truths[frame] = maker.make(snapshot(scene, frame), suiteScene(scene).exposure, warnings);
+      for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
+      warnings.clear();
+      noteNoise(scene, frame, truths[frame]->noise);
+      writeExr((c_.directory.imagesFolder() / (frameName(scene, frame) + "-reference.exr")).string(),
+               truths[frame]->mean);
+      c_.progress.step();
+    }
+    c_.progress.end();
+    return truths;
+  }
+
+  void noteNoise(std::size_t scene, int frame, double noise) {
+    const std::optional<double> limit = c_.suite.reference.maxNoise;
+    if (!limit || noise <= *limit) return;
+    noisyCells_.push_back(fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at {} samples",
+                                      *limit, suiteScene(scene).name, frame, noise, kMaxSpp));
+  }
+
+  void measureSequence(const PlannedSequence& sequence, const Truths& truths, TaskQueue& queue) {
+    const ImageSettings& image = c_.suite.image;
+    RasterSequence raster(c_.device, sequence.technique, image.widthPx, image.heightPx, image.samplesPerAxis);
+    const std::vector<int> open = openFrames(sequence);
+    for (int frame = suiteScene(sequence.scene).startFrame(); frame <= open.back(); ++frame) {
+      throwIfInterrupted();
+      const bool measured = std::ranges::binary_search(open, frame);
+      const FrameStats stats = raster.renderFrame(*snapshot(sequence.scene, frame), measured);
+      if (!measured) continue;
+      queue.run([this, &sequence, frame, stats, truth = truths.at(frame), rendered = raster.readImage()] {
+        finishCell(sequence, frame, stats, *truth, rendered);
+      });
+    }
+  }
+
+  void finishCell(const PlannedSequence& sequence, int frame, const FrameStats& stats, const Truth& truth,
+                  const Image& image) {
+    CellResult cell = makeCell(c_.suite, sequence, frame);
+    MetricsResult scores = truth.metrics.compare(image, truth.mask.empty() ? nullptr : &truth.mask);
+    cell.metrics = scores.whole;
+    cell.maskMetrics = scores.masked;
+    cell.floor = truth.floor;
+    cell.maskFloor = truth.maskFloor;
+    cell.unbiased = {{"mse", computeUnbiasedMse(image, truth.halfA, truth.halfB)}};
+    cell.counters = namedCounters(stats.counters);
+    cell.faceAgeFrames = meanAges(stats.faceAgeFrames);
+    if (frame == sequence.frames.back()) writeImages(sequence, frame, image, scores.flipHdrMap);
+    c_.directory.append(cell);
+    const std::lock_guard lock(mutex_);
+    finished_.emplace(cell.key(), std::move(cell));
+    c_.progress.step();
+  }
+
+  // The last frame of a sequence shows its whole history; the others come from `probebench render --frame`.
+  void writeImages(const PlannedSequence& sequence, int frame, const Image& image, const Plane& flipMap) const {
+    std::string name = frameName(sequence.scene, frame);
+    for (const auto& [axis, values] : c_.suite.grid)
+      name += fmt::format("-{}={}", axis, fileName(axisNamed(axis).print(sequence.technique)));
+    const std::string path = (c_.directory.imagesFolder() / name).string();
+    writeExr(path + ".exr", image);
+    writePngEncoded(path + "-flip.png", magma(flipMap));
+  }
+
+  // The scene's number keeps names apart that differ in replaced characters only.
+  std::string frameName(std::size_t scene, int frame) const {
+    return fmt::format("{}-{}-frame{}", scene, fileName(suiteScene(scene).name), frame);
+  }
+
+  std::vector<CellResult> orderedCells() const {
+    std::vector<CellResult> cells;
+    for (const PlannedSequence& sequence : c_.plan.sequences)
+      for (const int frame : sequence.frames) cells.push_back(finished_.at(makeCell(c_.suite, sequence, frame).key()));
+    return cells;
+  }
+
+  // All costs belong to one run of the machine: they are measured together, also after --resume.
+  std::string measureCost(std::vector<CellResult>& cells) {
+    std::vector<CostRequest> requests;
+    for (const PlannedSequence& sequence : c_.plan.sequences) requests.push_back(costRequest(sequence));
+    const std::map<std::string, std::string> context = {
+        {"probebench_version", toolVersion()},
+        {"probebench_git", gitHash()},
+        {"suite", c_.suite.name},
+        {"gl_backend", c_.device.info().backend},
+        {"gl_renderer", c_.device.info().renderer},
+        {"gl_version", c_.device.info().version},
+        {"image_size", fmt::format("{}x{}", c_.suite.image.widthPx, c_.suite.image.heightPx)}};
+    c_.progress.begin("cost", requests.size());
+    CostRun run = measureCosts(c_.device, c_.suite.image, requests, c_.suite.cost.repetitions, context,
+                               [&] { c_.progress.step(); });
+    c_.progress.end();
+    std::size_t cell = 0;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      for (std::size_t f = 0; f < c_.plan.sequences[i].frames.size(); ++f) cells[cell++].cost = run.results[i];
+    return run.benchmarkJson;
+  }
+
+  CostRequest costRequest(const PlannedSequence& sequence) const {
+    CostRequest request{makeCell(c_.suite, sequence, 0).sequenceKey(), sequence.technique, {}};
+    const SuiteScene& scene = suiteScene(sequence.scene);
+    request.snapshots.push_back(snapshot(sequence.scene, scene.startFrame()));
+    const int frames = blockFrames(sequence.technique, static_cast<int>(request.snapshots[0]->probes.size()),
+                                   static_cast<int>(scene.frames.size()));
+    for (int i = 1; i <= frames; ++i) request.snapshots.push_back(snapshot(sequence.scene, scene.startFrame() + i));
+    return request;
+  }
+
+  const RunContext& c_;
+  std::mutex mutex_;
+  std::map<std::string, CellResult> finished_;  // by key
+  std::vector<std::string> noisyCells_;
+};
+
+}  // namespace
+
+Scenes loadScenes(Suite& suite) {
+  Scenes scenes;
+  for (SuiteScene& scene : suite.scenes) {
+    scenes.push_back(loadScene(scene.reference));
+    if (scene.camera.empty()) scene.camera = scenes.back()->cameras.front().name;
+  }
+  return scenes;
+}
+
+RunOutcome runPlan(const RunContext& context) { return Runner(context).run(); }
+
+}  // namespace pb

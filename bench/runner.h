@@ -1,0 +1,43 @@
+// Runs a plan: references, then errors (rasterising on the calling thread, metrics of earlier cells beside it), then
+// cost with nothing else running. Results do not depend on the order in which cells finish.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/plan.h"
+#include "bench/progress.h"
+#include "bench/results.h"
+#include "bench/run_directory.h"
+#include "bench/store.h"
+#include "bench/suite.h"
+#include "raster/renderer.h"
+
+namespace pb {
+
+using Scenes = std::vector<std::shared_ptr<const Scene>>;  // one a scene of the suite
+
+// Loads the suite's scenes and puts the name of a scene's first camera where the suite names none.
+Scenes loadScenes(Suite& suite);
+
+struct RunContext {
+  const Suite& suite;
+  const Scenes& scenes;
+  const Plan& plan;
+  RasterDevice& device;
+  const ReferenceStore& store;
+  RunDirectory& directory;
+  Progress& progress;
+};
+
+struct RunOutcome {
+  std::vector<CellResult> cells;        // in the plan's order
+  std::string benchmarkJson;            // empty if no cost was measured
+  std::vector<std::string> noisyCells;  // references that missed max_noise: one sentence each
+};
+
+// Throws Error(Failure::interrupted) at a cell boundary after an interrupt; what is done stands in the journal.
+RunOutcome runPlan(const RunContext& context);
+
+}  // namespace pb

@@ -1,0 +1,44 @@
+// The reference store: ray-traced truths on disk, addressed by everything that changes the picture, never by name.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "reference/renderer.h"
+
+namespace pb {
+
+struct ReferenceRequest {
+  std::shared_ptr<const Snapshot> snapshot;
+  int widthPx = 0, heightPx = 0;
+  ReferenceSettings settings;
+};
+
+// $XDG_CACHE_HOME/probebench/references, else ~/.cache/probebench/references; an environment Error if neither is set.
+std::filesystem::path defaultStoreFolder();
+
+class ReferenceStore {
+ public:
+  explicit ReferenceStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // Everything that changes the picture of a request, as text. Equal texts mean equal pictures.
+  static std::string describe(const ReferenceRequest& request);
+
+  // The stored image with all its batches; nullopt if there is none, or if what is there is incomplete or damaged,
+  // which is said in `warning`.
+  std::optional<ReferenceImage> load(const ReferenceRequest& request, std::string& warning) const;
+
+  // Throws an environment Error that names the folder when it can't be written.
+  void save(const ReferenceRequest& request, const ReferenceImage& image) const;
+
+ private:
+  std::filesystem::path entry(const ReferenceRequest& request) const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace pb

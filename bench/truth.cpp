@@ -1,0 +1,76 @@
+#include "bench/truth.h"
+
+#include <algorithm>
+
+#include "bench/interrupt.h"
+#include "bench/mask.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+// relMSE of the noise of a reference's mean.
+double noiseOf(const ReferenceImage& image) { return computeErrorSums(image.mean(), image.half(0)).relmse; }
+
+bool anyInside(const Mask& mask) {
+  return std::ranges::any_of(mask, [](unsigned char inside) { return inside != 0; });
+}
+
+}  // namespace
+
+// The mean M is (A+B)/2, so A - M is (A-B)/2: the error of A against M is the floor of M.
+MetricValues computeFloor(const Image& mean, const Image& halfA, const Mask* mask) {
+  const ErrorSums sums = computeErrorSums(mean, halfA, mask);
+  return {{"mse", sums.mse}, {"relmse", sums.relmse}};
+}
+
+std::shared_ptr<const Truth> TruthMaker::make(std::shared_ptr<const Snapshot> snapshot, double exposure,
+                                              std::vector<std::string>& warnings) const {
+  const ReferenceScene scene(snapshot);
+  const ReferenceImage image = obtainQuietEnough(snapshot, scene, warnings);
+  const Image mean = image.mean();
+  const Image halfA = image.half(0);
+  Mask mask = makeMask(*snapshot, scene);
+  MetricValues maskFloor;
+  if (!mask.empty()) maskFloor = computeFloor(mean, halfA, &mask);
+  const MetricsSettings display{.exposure = exposure, .clampForDisplay = true};
+  return std::make_shared<const Truth>(Truth{std::move(snapshot), halfA, image.half(1), mean, noiseOf(image),
+                                             std::move(mask), computeFloor(mean, halfA), std::move(maskFloor),
+                                             MetricsReference(mean, display)});
+}
+
+ReferenceImage TruthMaker::obtain(const ReferenceRequest& request, const ReferenceScene& scene,
+                                  std::vector<std::string>& warnings) const {
+  std::string warning;
+  if (std::optional<ReferenceImage> stored = store_.load(request, warning)) return *std::move(stored);
+  if (!warning.empty()) warnings.push_back(warning);
+  ReferenceImage image = scene.render(request.snapshot->camera, request.widthPx, request.heightPx, request.settings,
+                                      &interruptRequested());
+  store_.save(request, image);
+  return image;
+}
+
+ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapshot>& snapshot,
+                                             const ReferenceScene& scene, std::vector<std::string>& warnings) const {
+  ReferenceRequest request{snapshot, image_.widthPx, image_.heightPx, {}};
+  request.settings.samplesPerAxis = image_.samplesPerAxis;
+  request.settings.depth = settings_.depth;
+  request.settings.spp = settings_.spp;
+  ReferenceImage image = obtain(request, scene, warnings);
+  while (settings_.maxNoise && noiseOf(image) > *settings_.maxNoise && 2 * request.settings.spp <= kMaxSpp) {
+    request.settings.spp *= 2;
+    image = obtain(request, scene, warnings);
+  }
+  return image;
+}
+
+Mask TruthMaker::makeMask(const Snapshot& snapshot, const ReferenceScene& scene) const {
+  const std::vector<unsigned char> instances = specularInstances(snapshot);
+  Mask mask(image_.widthPx, image_.heightPx);
+  addPixelsOf(instances, rasterIds_(snapshot), image_.samplesPerAxis, mask);
+  addPixelsOf(instances, scene.renderIds(snapshot.camera, image_.widthPx, image_.heightPx, image_.samplesPerAxis),
+              image_.samplesPerAxis, mask);
+  return anyInside(mask) ? mask : Mask();
+}
+
+}  // namespace pb

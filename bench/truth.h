@@ -1,0 +1,55 @@
+// The truth of one scene at one frame: what every cell of that frame is scored against.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/metrics/metrics.h"
+#include "bench/results.h"
+#include "bench/store.h"
+#include "bench/suite.h"
+
+namespace pb {
+
+struct Truth {
+  std::shared_ptr<const Snapshot> snapshot;
+  Image halfA, halfB, mean;
+  double noise = 0;               // relMSE of the floor
+  Mask mask;                      // specular-dominant objects; empty if there are none in sight
+  MetricValues floor, maskFloor;  // "mse" and "relmse" of the mean's own noise
+  MetricsReference metrics;       // scores images against `mean`
+};
+
+// Noise floor of the mean of two independent halves, ((A-B)/2)^2, as "mse" and "relmse".
+MetricValues computeFloor(const Image& mean, const Image& halfA, const Mask* mask = nullptr);
+
+class TruthMaker {
+ public:
+  // `rasterIds` gives the raster's object ids of a snapshot; it is called on the thread that calls make().
+  using RasterIds = std::function<Grid<SampleId>(const Snapshot&)>;
+
+  TruthMaker(const ReferenceStore& store, const ImageSettings& image, const TruthSettings& settings,
+             RasterIds rasterIds)
+      : store_(store), image_(image), settings_(settings), rasterIds_(std::move(rasterIds)) {}
+
+  // Takes the reference from the store or renders it and stores it, doubling the samples until the noise is at most
+  // max_noise or kMaxSpp is reached. `warnings` gets what went wrong with stored references.
+  std::shared_ptr<const Truth> make(std::shared_ptr<const Snapshot> snapshot, double exposure,
+                                    std::vector<std::string>& warnings) const;
+
+ private:
+  ReferenceImage obtain(const ReferenceRequest& request, const ReferenceScene& scene,
+                        std::vector<std::string>& warnings) const;
+  ReferenceImage obtainQuietEnough(const std::shared_ptr<const Snapshot>& snapshot, const ReferenceScene& scene,
+                                   std::vector<std::string>& warnings) const;
+  Mask makeMask(const Snapshot& snapshot, const ReferenceScene& scene) const;
+
+  const ReferenceStore& store_;
+  ImageSettings image_;
+  TruthSettings settings_;
+  RasterIds rasterIds_;
+};
+
+}  // namespace pb
