@@ -1,0 +1,248 @@
+#include "raster/renderer.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "raster/device.h"
+#include "raster/final_image.h"
+#include "raster/pass_timer.h"
+#include "raster/probe_maps.h"
+#include "raster/refresh/policies.h"
+#include "raster/scene_pass.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+constexpr float kLargestHalf = 65504.0f;
+constexpr float kLargestFloat = std::numeric_limits<float>::max();
+
+// Passes of a frame by number: the final image, then the faces of the probes.
+constexpr std::size_t kFinalPass = 0;
+std::size_t capturePass(const ProbeFace& f) { return 1 + static_cast<std::size_t>(6 * f.probe + f.face); }
+
+gpu::PassConstants passConstants(const Snapshot& snapshot, const shading::View& view, int width, int height,
+                                 float largestRadiance) {
+  return {.view = withResolution(view, width),
+          .image = {static_cast<float>(width), static_cast<float>(height), largestRadiance,
+                    static_cast<float>(snapshot.lights.size())}};
+}
+
+// Faces that are ordered by probe, one group a probe.
+std::vector<std::vector<ProbeFace>> byProbe(const std::vector<ProbeFace>& faces) {
+  std::vector<std::vector<ProbeFace>> groups;
+  for (const ProbeFace& f : faces) {
+    if (groups.empty() || groups.back().front().probe != f.probe) groups.emplace_back();
+    groups.back().push_back(f);
+  }
+  return groups;
+}
+
+// The time of a pass; 0 without a timer.
+template <class Pass>
+double timed(PassTimer* timer, const Pass& pass) {
+  if (timer != nullptr) timer->start();
+  pass();
+  return timer != nullptr ? timer->stopMs() : 0.0;
+}
+
+}  // namespace
+
+FrameCounters& FrameCounters::operator+=(const FrameCounters& other) {
+  facesCaptured += other.facesCaptured;
+  draws += other.draws;
+  triangles += other.triangles;
+  fragments += other.fragments;
+  probeBytes = std::max(probeBytes, other.probeBytes);
+  texelsFiltered += other.texelsFiltered;
+  return *this;
+}
+
+struct RasterSequence::Impl {
+  Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_, int samplesPerAxis_);
+  ~Impl() { device.context.makeCurrent(); }  // the members free GL objects
+
+  struct Frame {
+    FrameStats stats;
+    PassTimes times;
+  };
+  Frame renderFrame(const Snapshot& snapshot, PassTimer* timer);
+
+  bool isDynamic() const { return technique.probes == ProbeUse::dynamic; }
+  void allocateProbes(const Snapshot& snapshot);
+  std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
+  std::vector<bool> mapsShownAtFirst(const std::vector<ProbeFace>& due, std::size_t probeCount) const;
+  void iterate(const std::vector<ProbeFace>& due, FrameCounters& counters);
+  void capture(const std::vector<ProbeFace>& faces, FrameCounters& counters);
+  void publish(const std::vector<ProbeFace>& faces);
+  std::vector<std::array<std::int64_t, 6>> faceAges() const;
+
+  RasterDevice::Impl& device;
+  const Technique technique;
+  const int widthPx;
+  const int heightPx;
+  const int samplesPerAxis;
+  std::optional<ScenePass> scenePass;
+  std::optional<FinalImage> image;
+  std::optional<ProbeMaps> probes;
+  std::optional<PassTimer> timer;
+  RefreshHistory history;
+  std::vector<bool> mapShown;  // by probe: lookups read its cube map, not the environment
+};
+
+RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_,
+                           int samplesPerAxis_)
+    : device(device_), technique(technique_), widthPx(widthPx_), heightPx(heightPx_), samplesPerAxis(samplesPerAxis_) {
+  refreshPolicy(technique.refresh);  // refuses a bad one
+  if (technique.bounces < 1) throwInputError("a frame has at least one bounce iteration, got {}", technique.bounces);
+  checkImageFits(device.limits, widthPx, heightPx, samplesPerAxis);
+  checkProbesFit(device.limits, technique, 1, widthPx, heightPx, samplesPerAxis);
+  device.context.makeCurrent();
+  scenePass.emplace(device, technique.textureFilter, isDynamic());
+  image.emplace(device.context, widthPx, heightPx, samplesPerAxis);
+}
+
+RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& snapshot, PassTimer* passTimer) {
+  device.context.makeCurrent();
+  allocateProbes(snapshot);
+  const std::vector<ProbeFace> due =
+      isDynamic() ? dueFaces(technique.refresh, history, snapshot) : std::vector<ProbeFace>{};
+  mapShown = mapsShownAtFirst(due, snapshot.probes.size());
+  scenePass->beginFrame(snapshot, passesOf(snapshot));
+  if (probes) probes->bind();
+
+  Frame frame;
+  FrameCounters& counters = frame.stats.counters;
+  counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()));
+  for (int b = 0; isDynamic() && b < technique.bounces; ++b)
+    frame.times.captureMs.push_back(timed(passTimer, [&] { iterate(due, counters); }));
+  frame.times.finalMs =
+      timed(passTimer, [&] { scenePass->draw(kFinalPass, image->target(), kNoProbe, mapShown, counters); });
+  device.context.check("rendering a frame");
+
+  advance(history, due, snapshot);
+  frame.stats.faceAgeFrames = faceAges();
+  return frame;
+}
+
+void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
+  if (!isDynamic() || probes || snapshot.probes.empty()) return;
+  const int count = static_cast<int>(snapshot.probes.size());
+  checkProbesFit(device.limits, technique, count, widthPx, heightPx, samplesPerAxis);
+  probes.emplace(device.context, technique.resolution, count, technique.bounceOrder == BounceOrder::simultaneous);
+}
+
+std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {
+  std::vector<gpu::PassConstants> passes = {
+      passConstants(snapshot, snapshot.camera, image->widthSamples(), image->heightSamples(), kLargestFloat)};
+  if (!probes) return passes;
+  for (const ProbeFace& f : allFaces(snapshot)) {
+    const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];
+    passes.push_back(passConstants(snapshot, cubeFaceView(probe.position, f.face, probe.zNear), technique.resolution,
+                                   technique.resolution, kLargestHalf));
+  }
+  return passes;
+}
+
+// What lookups read before the frame's first capture: maps that are complete, unless the technique wants probes that
+// are due to show the environment.
+std::vector<bool> RasterSequence::Impl::mapsShownAtFirst(const std::vector<ProbeFace>& due,
+                                                         std::size_t probeCount) const {
+  std::vector<bool> shown(probeCount, isDynamic() && history.frame > 0);
+  if (technique.feedback == Feedback::sky)
+    for (const ProbeFace& f : due) shown[static_cast<std::size_t>(f.probe)] = false;
+  return shown;
+}
+
+void RasterSequence::Impl::iterate(const std::vector<ProbeFace>& due, FrameCounters& counters) {
+  if (technique.bounceOrder == BounceOrder::simultaneous) {
+    capture(due, counters);
+    publish(due);
+    return;
+  }
+  for (const std::vector<ProbeFace>& faces : byProbe(due)) {
+    capture(faces, counters);
+    publish(faces);
+  }
+}
+
+void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, FrameCounters& counters) {
+  for (const ProbeFace& f : faces) {
+    scenePass->draw(capturePass(f), probes->target(f), f.probe, mapShown, counters);
+    ++counters.facesCaptured;
+  }
+}
+
+void RasterSequence::Impl::publish(const std::vector<ProbeFace>& faces) {
+  if (faces.empty()) return;
+  probes->publish(faces);
+  for (const ProbeFace& f : faces) mapShown[static_cast<std::size_t>(f.probe)] = true;
+}
+
+std::vector<std::array<std::int64_t, 6>> RasterSequence::Impl::faceAges() const {
+  if (!isDynamic()) return {};
+  std::vector<std::array<std::int64_t, 6>> ages = history.lastCapturedFrame;
+  const std::int64_t rendered = history.frame - 1;
+  for (std::array<std::int64_t, 6>& probe : ages)
+    for (std::int64_t& age : probe) age = rendered - age;
+  return ages;
+}
+
+RasterSequence::RasterSequence(RasterDevice& device, const Technique& technique, int widthPx, int heightPx,
+                               int samplesPerAxis)
+    : impl_(std::make_unique<Impl>(device.impl(), technique, widthPx, heightPx, samplesPerAxis)) {}
+RasterSequence::~RasterSequence() = default;
+
+FrameStats RasterSequence::renderFrame(const Snapshot& snapshot, bool countFragments) {
+  if (!countFragments) return impl_->renderFrame(snapshot, nullptr).stats;
+  impl_->device.context.makeCurrent();
+  const gl::Functions& gl = impl_->device.context.functions();
+  const gl::Query query = gl::makeQuery(gl, GL_SAMPLES_PASSED);
+  gl.BeginQuery(GL_SAMPLES_PASSED, query.id());
+  FrameStats stats = impl_->renderFrame(snapshot, nullptr).stats;
+  gl.EndQuery(GL_SAMPLES_PASSED);
+  stats.counters.fragments = static_cast<std::int64_t>(gl::queryResult(query));
+  return stats;
+}
+
+PassTimes RasterSequence::renderFrameTimed(const Snapshot& snapshot) {
+  impl_->device.context.makeCurrent();
+  if (!impl_->timer) impl_->timer.emplace(impl_->device.context.functions(), impl_->device.info.software);
+  return impl_->renderFrame(snapshot, &*impl_->timer).times;
+}
+
+void RasterSequence::finish() {
+  impl_->device.context.makeCurrent();
+  impl_->device.context.functions().Finish();
+  impl_->device.context.check("finishing a frame");
+}
+
+Image RasterSequence::readImage() {
+  impl_->device.context.makeCurrent();
+  Image image = impl_->image->read();
+  impl_->device.context.check("reading the image");
+  return image;
+}
+
+Grid<SampleId> RasterSequence::renderIds(const Snapshot& snapshot) {
+  gl::Context& context = impl_->device.context;
+  context.makeCurrent();
+  IdImage ids(context, impl_->image->widthSamples(), impl_->image->heightSamples());
+  impl_->scenePass->beginFrame(snapshot, impl_->passesOf(snapshot));
+  impl_->scenePass->drawIds(kFinalPass, ids.target());
+  Grid<SampleId> result = ids.read();
+  context.check("rendering ids");
+  return result;
+}
+
+std::array<Image, 6> RasterSequence::readProbe(int probe) {
+  if (!impl_->probes || probe < 0 || static_cast<std::size_t>(probe) >= impl_->mapShown.size())
+    throwInputError("the last frame has no cube map of probe {}", probe);
+  impl_->device.context.makeCurrent();
+  std::array<Image, 6> faces = impl_->probes->read(probe);
+  impl_->device.context.check("reading a cube map");
+  return faces;
+}
+
+}  // namespace pb

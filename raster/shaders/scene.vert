@@ -1,2 +1,36 @@
 #version 450 core
-void main() { gl_Position = vec4(0.0); }
+#define PB_FUNC
+#include "raster/shaders/blocks.glsl"
+
+layout(location = 0) in vec3 objectPosition;
+layout(location = 1) in vec3 objectNormal;
+layout(location = 0) out vec3 worldPosition;
+layout(location = 1) out vec3 worldNormal;
+#ifdef ATTRIBUTES
+layout(location = 2) in vec4 objectTangent;
+layout(location = 3) in vec4 vertexUv;
+layout(location = 4) in vec4 vertexColor;
+layout(location = 5) in float vertexUvPerMetre;
+layout(location = 2) out vec4 worldTangent;
+layout(location = 3) out vec4 uv;
+layout(location = 4) out vec4 color;
+layout(location = 5) out float uvPerMetre;
+#endif
+
+// Variants must cover the same pixels.
+invariant gl_Position;
+
+void main() {
+  mat4 m = instance.worldFromObject;
+  // The order of operations in GLM's mat4 * vec4, which places the reference's triangles.
+  precise vec4 world = (m[0] * objectPosition.x + m[1] * objectPosition.y) + (m[2] * objectPosition.z + m[3]);
+  worldPosition = vec3(world);
+  worldNormal = mat3(instance.normalMatrix) * objectNormal;
+#ifdef ATTRIBUTES
+  worldTangent = vec4(mat3(m) * vec3(objectTangent), objectTangent.w * instance.values.w);
+  uv = vertexUv;
+  color = vertexColor;
+  uvPerMetre = vertexUvPerMetre * instance.values.x;
+#endif
+  gl_Position = clipFromWorldPosition(pass.view, worldPosition);
+}

@@ -1,0 +1,63 @@
+#include "raster/limits.h"
+
+#include <algorithm>
+
+#include "raster/gpu_structs.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+constexpr std::int64_t kDepthBytes = 4;         // D32F
+constexpr std::int64_t kCubeTexelBytes = 8;     // RGBA16F
+constexpr std::int64_t kImageSampleBytes = 16;  // RGBA32F
+constexpr std::int64_t kMebibyte = 1024 * 1024;
+
+std::int64_t imageBytes(int widthPx, int heightPx, int samplesPerAxis) {
+  const std::int64_t samples = std::int64_t{widthPx} * heightPx * samplesPerAxis * samplesPerAxis;
+  return samples * (kImageSampleBytes + kDepthBytes);
+}
+
+void checkBytes(const DeviceLimits& limits, std::int64_t bytes, const char* what) {
+  if (bytes > limits.bytes)
+    throwInputError("{} want {} MiB, the device allows {} MiB", what, bytes / kMebibyte, limits.bytes / kMebibyte);
+}
+
+}  // namespace
+
+std::int64_t probeBytes(const Technique& technique, int probes) {
+  if (technique.probes == ProbeUse::environmentOnly) return 0;
+  const std::int64_t copies = technique.bounceOrder == BounceOrder::simultaneous ? 2 : 1;
+  return copies * 6 * probes * technique.resolution * technique.resolution * kCubeTexelBytes;
+}
+
+void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int samplesPerAxis) {
+  if (widthPx < 1 || heightPx < 1 || samplesPerAxis < 1)
+    throwInputError("an image has at least one pixel and one sample, got {}x{} pixels with {}x{} samples", widthPx,
+                    heightPx, samplesPerAxis, samplesPerAxis);
+  const std::int64_t largest = std::int64_t{std::max(widthPx, heightPx)} * samplesPerAxis;
+  if (largest > limits.imageSizePx)
+    throwInputError(
+        "the device renders at most {} samples along an edge of the image, {}x{} pixels with {}x{} samples "
+        "want {}",
+        limits.imageSizePx, widthPx, heightPx, samplesPerAxis, samplesPerAxis, largest);
+  if (gpu::kTextureUnits > limits.textureUnits)
+    throwInputError("the shaders use {} texture units, the device has {}", gpu::kTextureUnits, limits.textureUnits);
+  checkBytes(limits, imageBytes(widthPx, heightPx, samplesPerAxis), "the image's samples");
+}
+
+void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, int widthPx, int heightPx,
+                    int samplesPerAxis) {
+  if (technique.probes == ProbeUse::environmentOnly || probes == 0) return;
+  if (technique.resolution < 1 || technique.resolution > limits.cubeMapSizePx)
+    throwInputError("the device's cube maps have 1 to {} texels along an edge, got resolution {}", limits.cubeMapSizePx,
+                    technique.resolution);
+  if (std::int64_t{6} * probes > limits.arrayLayers)
+    throwInputError("the device's array textures have at most {} layers, {} probes want {}", limits.arrayLayers, probes,
+                    std::int64_t{6} * probes);
+  const std::int64_t depth = kDepthBytes * technique.resolution * technique.resolution;
+  checkBytes(limits, probeBytes(technique, probes) + depth + imageBytes(widthPx, heightPx, samplesPerAxis),
+             "the cube maps and the image's samples");
+}
+
+}  // namespace pb

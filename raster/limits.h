@@ -1,0 +1,28 @@
+// What a technique needs of the device, checked before anything is allocated: pure functions of numbers.
+#pragma once
+
+#include <cstdint>
+
+#include "raster/technique.h"
+
+namespace pb {
+
+struct DeviceLimits {
+  int cubeMapSizePx;   // GL_MAX_CUBE_MAP_TEXTURE_SIZE
+  int arrayLayers;     // GL_MAX_ARRAY_TEXTURE_LAYERS
+  int imageSizePx;     // the smaller of GL_MAX_TEXTURE_SIZE and GL_MAX_VIEWPORT_DIMS
+  int textureUnits;    // GL_MAX_TEXTURE_IMAGE_UNITS
+  std::int64_t bytes;  // that may be allocated
+};
+
+// Colour memory of the cube maps of `probes` probes.
+std::int64_t probeBytes(const Technique& technique, int probes);
+
+// Throws an input Error that names both numbers when the final image exceeds the device.
+void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int samplesPerAxis);
+
+// The same for the cube maps with their depth and the final image together.
+void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, int widthPx, int heightPx,
+                    int samplesPerAxis);
+
+}  // namespace pb

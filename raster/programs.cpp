@@ -1,0 +1,83 @@
+#include "raster/programs.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "raster/shaders/background.frag.h"
+#include "raster/shaders/background.vert.h"
+#include "raster/shaders/ids.frag.h"
+#include "raster/shaders/scene.frag.h"
+#include "raster/shaders/scene.vert.h"
+
+namespace pb {
+namespace {
+
+constexpr std::array<const char*, kMaterialTextures> kTextureDefines = {
+    "BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE", "NORMAL_TEXTURE", "EMISSION_TEXTURE", "OCCLUSION_TEXTURE"};
+
+std::string define(const std::string& name, const std::string& value = "") {
+  return "#define " + name + " " + value + "\n";
+}
+
+std::string definesOf(const SurfaceVariant& variant) {
+  std::string defines = define("SURFACE_KIND", fmt::format("{:.1f}", variant.kind));
+  if (variant.attributes) defines += define("ATTRIBUTES");
+  if (variant.textures != 0 && variant.filter == TextureFilter::hardware) defines += define("TEXTURES_HARDWARE");
+  for (unsigned i = 0; i < kTextureDefines.size(); ++i)
+    if ((variant.textures >> i & 1U) != 0) defines += define(kTextureDefines[i]);
+  return defines;
+}
+
+std::string definesOf(EnvironmentSource source) {
+  std::string defines;
+  if (source != EnvironmentSource::gradient) defines += define("ENVIRONMENT_FACES");
+  if (source == EnvironmentSource::facesHardware) defines += define("ENVIRONMENT_HARDWARE");
+  return defines;
+}
+
+// The #version line has to stay the first.
+std::string withDefines(const std::string& shader, const std::string& defines) {
+  const std::size_t secondLine = shader.find('\n') + 1;
+  return shader.substr(0, secondLine) + defines + shader.substr(secondLine);
+}
+
+}  // namespace
+
+EnvironmentSource environmentSource(const Environment& environment, TextureFilter filter) {
+  if (environment.sky.toGlow.w <= 0.5f) return EnvironmentSource::gradient;
+  return filter == TextureFilter::hardware ? EnvironmentSource::facesHardware : EnvironmentSource::faces;
+}
+
+GLuint Programs::surfaceShowingProbe(const SurfaceVariant& variant) {
+  return find(shaders::kSceneVert, shaders::kSceneFrag, "scene", definesOf(variant) + define("PROBE_LOOKUP"));
+}
+
+GLuint Programs::surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source) {
+  return find(shaders::kSceneVert, shaders::kSceneFrag, "scene", definesOf(variant) + definesOf(source));
+}
+
+GLuint Programs::background(EnvironmentSource source) {
+  return find(shaders::kBackgroundVert, shaders::kBackgroundFrag, "background", definesOf(source));
+}
+
+// Ids follow the exact filter's choice of texels whatever the filter.
+GLuint Programs::ids(const SurfaceVariant& variant) {
+  SurfaceVariant geometry;
+  geometry.attributes = variant.attributes;
+  geometry.textures = variant.textures & 1U;
+  return find(shaders::kSceneVert, shaders::kIdsFrag, "ids", definesOf(geometry));
+}
+
+GLuint Programs::find(const char* vertexShader, const char* fragmentShader, const std::string& name,
+                      const std::string& defines) {
+  std::unique_ptr<gl::Program>& program = programs_[name + "\n" + defines];
+  if (!program)
+    program = std::make_unique<gl::Program>(
+        gl_, std::vector<gl::ShaderSource>{
+                 {GL_VERTEX_SHADER, "raster/shaders/" + name + ".vert", withDefines(vertexShader, defines)},
+                 {GL_FRAGMENT_SHADER, "raster/shaders/" + name + ".frag", withDefines(fragmentShader, defines)}});
+  return program->id();
+}
+
+}  // namespace pb

@@ -1,0 +1,51 @@
+// The variants of the shaders that a device has compiled, each compiled when it is first asked for.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "raster/gl/objects.h"
+#include "raster/technique.h"
+#include "scenes/scene.h"
+
+namespace pb {
+
+// Textures of a material, by bit in the order of the slots in MaterialConstants.
+inline constexpr int kMaterialTextures = 5;
+using TextureMask = unsigned;
+
+// How the environment is read.
+enum class EnvironmentSource { gradient, faces, facesHardware };
+EnvironmentSource environmentSource(const Environment& environment, TextureFilter filter);
+
+// What the fragments of one draw need: the cheapest variant that does it is chosen.
+struct SurfaceVariant {
+  float kind = shading::kSurfaceDiffuse;  // shading::kSurface*
+  TextureMask textures = 0;
+  bool attributes = false;  // vertices carry more than position and normal
+  TextureFilter filter = TextureFilter::exact;
+
+  friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
+};
+
+class Programs {
+ public:
+  explicit Programs(const gl::Functions& gl) : gl_(gl) {}
+
+  // Names of GL programs, valid as long as this object. All throw an environment Error if the driver refuses.
+  GLuint surfaceShowingProbe(const SurfaceVariant& variant);
+  GLuint surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source);
+  GLuint background(EnvironmentSource source);
+  GLuint ids(const SurfaceVariant& variant);
+
+ private:
+  GLuint find(const char* vertexShader, const char* fragmentShader, const std::string& name,
+              const std::string& defines);
+
+  const gl::Functions& gl_;
+  std::map<std::string, std::unique_ptr<gl::Program>> programs_;  // by name and defines
+};
+
+}  // namespace pb

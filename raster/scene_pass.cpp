@@ -1,0 +1,198 @@
+#include "raster/scene_pass.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <tuple>
+
+#include "raster/culling.h"
+
+namespace pb {
+namespace {
+
+gpu::InstanceConstants constantsOf(const SnapshotInstance& instance, std::size_t index) {
+  return {.worldFromObject = instance.worldFromObject,
+          .normalMatrix = glm::mat4(instance.normalMatrix),
+          .values = {instance.uvScale, static_cast<float>(std::max(instance.probe, 0)), static_cast<float>(index + 1),
+                     instance.mirrored ? -1.0f : 1.0f}};
+}
+
+// Counter-clockwise triangles stay so on their way to the window if s, t and forward are as left-handed as x, y and
+// depth of GL's window; views and transforms may each turn them round.
+GLenum frontFace(const shading::View& view, bool mirrored) {
+  const float handedness = glm::dot(glm::cross(glm::vec3(view.right), glm::vec3(view.down)), glm::vec3(view.forward));
+  return (handedness > 0.0f) != mirrored ? GL_CW : GL_CCW;
+}
+
+// The reference sees glass from inside, too; elsewhere back faces exist only on double-sided materials.
+bool cullsBackFaces(const Material& material) {
+  return !material.doubleSided && material.constants.kind.x != shading::kSurfaceGlass;
+}
+
+}  // namespace
+
+// Sets the state of draws, leaving what is set already.
+class ScenePass::Binder {
+ public:
+  Binder(const ScenePass& pass, const shading::View& view) : pass_(pass), gl_(pass.gl_), view_(view) {}
+
+  void bind(const Draw& draw, GLuint program) {
+    if (program != program_) gl_.UseProgram(program_ = program);
+    if (draw.mesh != mesh_) bindMesh(draw.mesh);
+    if (draw.material != material_) pass_.resources_->bindMaterial(material_ = draw.material);
+    setFacing(draw.cullsBackFaces, frontFace(view_, pass_.snapshot_->instances[draw.instance].mirrored));
+    pass_.instanceSlots_.bind(gpu::kInstanceBlock, draw.instance);
+  }
+
+ private:
+  void bindMesh(const GpuMesh* mesh) {
+    mesh_ = mesh;
+    gl_.BindVertexArray(mesh->vertexArray.id());
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kSmoothingGroupBlock, mesh->smoothingGroups.id());
+  }
+
+  void setFacing(bool culls, GLenum front) {
+    if (front != front_) gl_.FrontFace(front_ = front);
+    if (culls == culls_) return;
+    culls_ = culls;
+    culls ? gl_.Enable(GL_CULL_FACE) : gl_.Disable(GL_CULL_FACE);
+  }
+
+  const ScenePass& pass_;
+  const gl::Functions& gl_;
+  const shading::View& view_;
+  GLuint program_ = 0;
+  const GpuMesh* mesh_ = nullptr;
+  int material_ = -1;
+  GLenum front_ = GL_NONE;
+  bool culls_ = false;  // as beginPass() leaves it
+};
+
+ScenePass::ScenePass(RasterDevice::Impl& device, TextureFilter filter, bool useProbes)
+    : device_(device),
+      gl_(device.context.functions()),
+      filter_(filter),
+      useProbes_(useProbes),
+      noVertices_(gl::makeVertexArray(gl_)) {}
+
+void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes) {
+  snapshot_ = &snapshot;
+  if (!resources_ || resources_->scene() != snapshot.scene) {
+    resources_ = device_.resourcesOf(snapshot.scene);
+    draws_.clear();
+  }
+  if (!drawsFit(snapshot)) buildDraws(snapshot);
+  uploadInstances();
+  uploadLights();
+  uploadPasses(passes);
+  resources_->bindScene();
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLightBlock, lights_.id());
+}
+
+void ScenePass::draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
+                     FrameCounters& counters) {
+  beginPass(pass, target);
+  Binder binder(*this, passes_[pass].view);
+  for (const Draw& draw : draws_) {
+    const int probe = snapshot_->instances[draw.instance].probe;
+    if ((probe != kNoProbe && probe == hiddenProbe) || !isVisible(draw, pass)) continue;
+    const bool showsProbe = draw.showingProbe != 0 && mapShown[static_cast<std::size_t>(probe)];
+    binder.bind(draw, showsProbe ? draw.showingProbe : draw.showingEnvironment);
+    gl_.DrawElements(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+    ++counters.draws;
+    counters.triangles += draw.mesh->indexCount / 3;
+  }
+  drawBackground(counters);
+}
+
+void ScenePass::drawIds(std::size_t pass, const RenderTarget& target) {
+  constexpr std::array<GLuint, 4> kNothing{};
+  gl_.ClearNamedFramebufferuiv(target.framebuffer, GL_COLOR, 0, kNothing.data());
+  beginPass(pass, target);
+  Binder binder(*this, passes_[pass].view);
+  for (const Draw& draw : draws_) {
+    if (!isVisible(draw, pass)) continue;
+    binder.bind(draw, device_.programs.ids(draw.variant));
+    gl_.DrawElements(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+bool ScenePass::drawsFit(const Snapshot& snapshot) const {
+  return draws_.size() == snapshot.instances.size() && std::ranges::all_of(draws_, [&](const Draw& draw) {
+           const SnapshotInstance& instance = snapshot.instances[draw.instance];
+           return draw.source == instance.mesh && draw.material == instance.material;
+         });
+}
+
+// Sorted by what is dear to change. Nothing here may depend on addresses or GL names: the order decides which of two
+// coinciding surfaces is seen, and how many fragments pass.
+void ScenePass::buildDraws(const Snapshot& snapshot) {
+  const EnvironmentSource source = environmentSource(snapshot.scene->environment, filter_);
+  background_ = device_.programs.background(source);
+  draws_.clear();
+  for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
+    const SnapshotInstance& instance = snapshot.instances[i];
+    const SurfaceVariant variant = resources_->variantOf(instance.material, *instance.mesh, filter_);
+    const bool hasProbe = useProbes_ && instance.probe >= 0;
+    draws_.push_back({.variant = variant,
+                      .material = instance.material,
+                      .instance = i,
+                      .source = instance.mesh,
+                      .mesh = &resources_->mesh(instance.mesh),
+                      .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source),
+                      .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant) : 0,
+                      .cullsBackFaces = cullsBackFaces(snapshot.materialOf(instance))});
+  }
+  std::ranges::sort(draws_, {}, [](const Draw& d) { return std::tuple(d.variant, d.material, d.instance); });
+  device_.context.check("uploading a scene's meshes");
+}
+
+void ScenePass::uploadInstances() {
+  const std::vector<SnapshotInstance>& instances = snapshot_->instances;
+  if (instanceSlots_.size() != instances.size())
+    instanceSlots_ = UniformSlots<gpu::InstanceConstants>(device_.context, instances.size());
+  for (std::size_t i = 0; i < instances.size(); ++i) instanceSlots_.set(i, constantsOf(instances[i], i));
+  instanceSlots_.upload();
+}
+
+void ScenePass::uploadLights() {
+  const std::vector<shading::Light>& lights = snapshot_->lights;
+  if (lights_.id() == 0 || lightCount_ != lights.size())
+    lights_ = gl::Buffer(gl_, lights.size() * sizeof(shading::Light));
+  lightCount_ = lights.size();
+  lights_.write(0, gl::bytesOf(lights));
+}
+
+void ScenePass::uploadPasses(const std::vector<gpu::PassConstants>& passes) {
+  passes_ = passes;
+  if (passSlots_.size() < passes.size()) passSlots_ = UniformSlots<gpu::PassConstants>(device_.context, passes.size());
+  for (std::size_t i = 0; i < passes.size(); ++i) passSlots_.set(i, passes[i]);
+  passSlots_.upload();
+}
+
+void ScenePass::beginPass(std::size_t pass, const RenderTarget& target) const {
+  constexpr float kFarthest = 0.0f;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  gl_.Viewport(0, 0, target.widthPx, target.heightPx);
+  gl_.ClearNamedFramebufferfv(target.framebuffer, GL_DEPTH, 0, &kFarthest);
+  gl_.DepthFunc(GL_GREATER);
+  gl_.Disable(GL_CULL_FACE);
+  passSlots_.bind(gpu::kPassBlock, pass);
+}
+
+bool ScenePass::isVisible(const Draw& draw, std::size_t pass) const {
+  return draw.mesh->indexCount > 0 &&
+         !isOutsideFrustum(snapshot_->instances[draw.instance].worldBounds, passes_[pass].view);
+}
+
+// Last, where nothing was drawn: no colour needs clearing and hidden sky costs nothing.
+void ScenePass::drawBackground(FrameCounters& counters) const {
+  gl_.DepthFunc(GL_GEQUAL);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.UseProgram(background_);
+  gl_.BindVertexArray(noVertices_.id());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  ++counters.draws;
+  ++counters.triangles;
+}
+
+}  // namespace pb

@@ -1,0 +1,75 @@
+// Draws a snapshot from one view into one target: what captures and the final image have in common.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "raster/device.h"
+#include "raster/uniform_slots.h"
+
+namespace pb {
+
+struct RenderTarget {
+  GLuint framebuffer;
+  int widthPx;
+  int heightPx;
+};
+
+inline constexpr int kNoProbe = -1;
+
+class ScenePass {
+ public:
+  // Without `useProbes` every specular surface shows the environment.
+  ScenePass(RasterDevice::Impl& device, TextureFilter filter, bool useProbes);
+
+  // Uploads what changes from frame to frame: transforms, lights and the views of the frame's passes.
+  void beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes);
+
+  // The frame's pass number `pass`, without the owners of probe `hiddenProbe` (or kNoProbe). Probes that are marked in
+  // mapShown show their cube maps (bound by the caller to gpu::kProbeUnit), the others the environment.
+  void draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
+            FrameCounters& counters);
+
+  // The same objects into an RGBA32UI target: SampleId, 0.
+  void drawIds(std::size_t pass, const RenderTarget& target);
+
+ private:
+  // An instance, with what is the same in all frames.
+  struct Draw {
+    SurfaceVariant variant;
+    int material;
+    std::size_t instance;
+    std::shared_ptr<const Mesh> source;
+    const GpuMesh* mesh;
+    GLuint showingEnvironment;
+    GLuint showingProbe;  // 0 for instances without a probe
+    bool cullsBackFaces;
+  };
+  class Binder;
+
+  void buildDraws(const Snapshot& snapshot);
+  bool drawsFit(const Snapshot& snapshot) const;
+  void uploadInstances();
+  void uploadLights();
+  void uploadPasses(const std::vector<gpu::PassConstants>& passes);
+  void beginPass(std::size_t pass, const RenderTarget& target) const;
+  bool isVisible(const Draw& draw, std::size_t pass) const;
+  void drawBackground(FrameCounters& counters) const;
+
+  RasterDevice::Impl& device_;
+  const gl::Functions& gl_;
+  TextureFilter filter_;
+  bool useProbes_;
+  std::shared_ptr<SceneResources> resources_;
+  GLuint background_ = 0;
+  gl::VertexArray noVertices_;
+  const Snapshot* snapshot_ = nullptr;  // between beginFrame() and the last pass of the frame
+  std::vector<gpu::PassConstants> passes_;
+  std::vector<Draw> draws_;
+  UniformSlots<gpu::InstanceConstants> instanceSlots_;
+  UniformSlots<gpu::PassConstants> passSlots_;
+  std::size_t lightCount_ = 0;
+  gl::Buffer lights_;
+};
+
+}  // namespace pb

@@ -1,0 +1,193 @@
+#include "raster/scene_resources.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace pb {
+namespace {
+
+// What the vertex shader reads (raster/shaders/scene.vert).
+struct Vertex {
+  glm::vec3 position;
+  glm::vec3 normal;
+  glm::vec4 tangent;
+  glm::vec4 uv;  // both sets
+  glm::vec4 color;
+  float uvPerMetre;
+};
+
+struct Attribute {
+  GLint components;
+  std::size_t offset;
+};
+constexpr std::array<Attribute, 6> kAttributes = {{{3, offsetof(Vertex, position)},
+                                                   {3, offsetof(Vertex, normal)},
+                                                   {4, offsetof(Vertex, tangent)},
+                                                   {4, offsetof(Vertex, uv)},
+                                                   {4, offsetof(Vertex, color)},
+                                                   {1, offsetof(Vertex, uvPerMetre)}}};
+
+template <class T>
+T valueOr(const std::vector<T>& values, std::size_t i, const T& otherwise) {
+  return values.empty() ? otherwise : values[i];
+}
+
+std::vector<Vertex> interleave(const Mesh& mesh) {
+  std::vector<Vertex> vertices;
+  vertices.reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::vec2 uv0 = valueOr(mesh.uvs[0], i, glm::vec2(0.0f));
+    const glm::vec2 uv1 = valueOr(mesh.uvs[1], i, glm::vec2(0.0f));
+    vertices.push_back({.position = mesh.positions[i],
+                        .normal = mesh.normals[i],
+                        .tangent = valueOr(mesh.tangents, i, glm::vec4(0.0f)),
+                        .uv = {uv0.x, uv0.y, uv1.x, uv1.y},
+                        .color = valueOr(mesh.colors, i, glm::vec4(1.0f)),
+                        .uvPerMetre = valueOr(mesh.uvPerMetre, i, 0.0f)});
+  }
+  return vertices;
+}
+
+void describeVertices(const gl::Functions& gl, const GpuMesh& mesh) {
+  const GLuint array = mesh.vertexArray.id();
+  gl.VertexArrayVertexBuffer(array, 0, mesh.vertices.id(), 0, sizeof(Vertex));
+  gl.VertexArrayElementBuffer(array, mesh.indices.id());
+  for (GLuint location = 0; location < kAttributes.size(); ++location) {
+    const Attribute& attribute = kAttributes[location];
+    gl.EnableVertexArrayAttrib(array, location);
+    gl.VertexArrayAttribFormat(array, location, attribute.components, GL_FLOAT, GL_FALSE,
+                               static_cast<GLuint>(attribute.offset));
+    gl.VertexArrayAttribBinding(array, location, 0);
+  }
+}
+
+// The material's textures, -1 for none, in the order of the slots in MaterialConstants.
+std::array<int, kMaterialTextures> texturesOf(const Material& m) {
+  return {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture, m.occlusionTexture};
+}
+
+std::array<const shading::TextureSlot*, kMaterialTextures> slotsOf(const Material& m) {
+  const shading::MaterialConstants& c = m.constants;
+  return {&c.baseColorSlot, &c.metallicRoughnessSlot, &c.normalSlot, &c.emissionSlot, &c.occlusionSlot};
+}
+
+GLenum wrapMode(float wrap) {
+  if (wrap == shading::kWrapClamp) return GL_CLAMP_TO_EDGE;
+  return wrap == shading::kWrapMirror ? GL_MIRRORED_REPEAT : GL_REPEAT;
+}
+
+GLenum minFilter(float filter) {
+  static constexpr std::array<GLenum, 6> kFilters = {GL_NEAREST,
+                                                     GL_LINEAR,
+                                                     GL_NEAREST_MIPMAP_NEAREST,
+                                                     GL_LINEAR_MIPMAP_NEAREST,
+                                                     GL_NEAREST_MIPMAP_LINEAR,
+                                                     GL_LINEAR_MIPMAP_LINEAR};
+  return kFilters[static_cast<std::size_t>(filter)];
+}
+
+}  // namespace
+
+GpuMesh::GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_)
+    : source(std::move(source_)),
+      vertexArray(gl::makeVertexArray(gl)),
+      vertices(gl, gl::bytesOf(interleave(*source))),
+      indices(gl, gl::bytesOf(source->indices)),
+      smoothingGroups(gl, gl::bytesOf(source->smoothingGroups)),
+      indexCount(static_cast<GLsizei>(source->indices.size())) {
+  describeVertices(gl, *this);
+}
+
+SceneResources::SceneResources(gl::Context& context, std::shared_ptr<const Scene> scene)
+    : gl_(context.functions()), scene_(std::move(scene)), constants_(context, 1) {
+  uploadTextures();
+  uploadMaterials(context);
+  uploadEnvironment();
+  context.check("uploading a scene's textures");
+}
+
+const GpuMesh& SceneResources::mesh(const std::shared_ptr<const Mesh>& mesh) {
+  return meshes_.try_emplace(mesh.get(), gl_, mesh).first->second;
+}
+
+SurfaceVariant SceneResources::variantOf(int material, const Mesh& mesh, TextureFilter filter) const {
+  const Material& m = scene_->materials[static_cast<std::size_t>(material)];
+  SurfaceVariant variant;
+  variant.kind = m.constants.kind.x;
+  variant.filter = filter;
+  const std::array<int, kMaterialTextures> textures = texturesOf(m);
+  for (unsigned i = 0; i < textures.size(); ++i)
+    if (textures[i] >= 0) variant.textures |= 1U << i;
+  variant.attributes = variant.textures != 0 || !mesh.colors.empty();
+  return variant;
+}
+
+void SceneResources::bindScene() const {
+  constants_.bind(gpu::kSceneBlock, 0);
+  gl_.BindTextureUnit(gpu::kEnvironmentUnit, environmentFaces_.id());
+  gl_.BindTextureUnit(gpu::kEnvironmentCubeUnit, environmentCube_.id());
+}
+
+void SceneResources::bindMaterial(int material) const {
+  const auto m = static_cast<std::size_t>(material);
+  materials_.bind(gpu::kMaterialBlock, m);
+  for (const Binding& binding : materialBindings_[m]) {
+    gl_.BindTextureUnit(binding.unit, binding.texture);
+    gl_.BindSampler(binding.unit, binding.sampler);
+  }
+}
+
+void SceneResources::uploadTextures() {
+  for (const Texture& source : scene_->textures) {
+    textures_.push_back(gl::makeTexture(gl_, {.target = GL_TEXTURE_2D,
+                                              .format = GL_RGBA32F,
+                                              .width = source.levels.front().width(),
+                                              .height = source.levels.front().height(),
+                                              .levels = static_cast<int>(source.levels.size())}));
+    for (GLint level = 0; level < static_cast<GLint>(source.levels.size()); ++level) {
+      const ImageRgba& texels = source.levels[static_cast<std::size_t>(level)];
+      gl_.TextureSubImage2D(textures_.back().id(), level, 0, 0, texels.width(), texels.height(), GL_RGBA, GL_FLOAT,
+                            texels.data());
+    }
+  }
+}
+
+void SceneResources::uploadMaterials(gl::Context& context) {
+  materials_ = UniformSlots<shading::MaterialConstants>(context, scene_->materials.size());
+  for (std::size_t m = 0; m < scene_->materials.size(); ++m) {
+    const Material& material = scene_->materials[m];
+    materials_.set(m, material.constants);
+    const auto textures = texturesOf(material);
+    const auto slots = slotsOf(material);
+    std::vector<Binding>& bindings = materialBindings_.emplace_back();
+    for (std::size_t i = 0; i < textures.size(); ++i)
+      if (textures[i] >= 0)
+        bindings.push_back({static_cast<GLuint>(gpu::kMaterialUnit) + static_cast<GLuint>(i),
+                            textures_[static_cast<std::size_t>(textures[i])].id(), samplerFor(slots[i]->sampler_)});
+  }
+  materials_.upload();
+}
+
+void SceneResources::uploadEnvironment() {
+  const Environment& environment = scene_->environment;
+  constants_.set(0, {environment.sky, environment.ambient});
+  constants_.upload();
+  const int size = environment.faces.front().width();
+  environmentFaces_ = gl::makeTexture(
+      gl_, {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = size, .height = size, .layers = 6});
+  for (GLint face = 0; face < 6; ++face)
+    gl_.TextureSubImage3D(environmentFaces_.id(), 0, 0, 0, face, size, size, 1, GL_RGBA, GL_FLOAT,
+                          environment.faces[static_cast<std::size_t>(face)].data());
+  environmentCube_ = gl::makeCubeView(environmentFaces_, GL_RGBA32F);
+}
+
+GLuint SceneResources::samplerFor(const glm::vec4& settings) {
+  const auto [found, isNew] = samplers_.try_emplace({settings.x, settings.y, settings.z, settings.w});
+  if (isNew)
+    found->second = gl::makeSampler(gl_, settings.z == shading::kFilterNearest ? GL_NEAREST : GL_LINEAR,
+                                    minFilter(settings.w), wrapMode(settings.x), wrapMode(settings.y));
+  return found->second.id();
+}
+
+}  // namespace pb

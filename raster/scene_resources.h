@@ -1,0 +1,68 @@
+// A scene's meshes, materials, textures and environment on the device: uploaded once, then only read.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "raster/gl/objects.h"
+#include "raster/gpu_structs.h"
+#include "raster/programs.h"
+#include "raster/uniform_slots.h"
+#include "scenes/scene.h"
+
+namespace pb {
+
+struct GpuMesh {
+  GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_);
+
+  std::shared_ptr<const Mesh> source;  // kept, so that its address stays its own
+  gl::VertexArray vertexArray;
+  gl::Buffer vertices;
+  gl::Buffer indices;
+  gl::Buffer smoothingGroups;  // one uint a triangle
+  GLsizei indexCount;
+};
+
+class SceneResources {
+ public:
+  SceneResources(gl::Context& context, std::shared_ptr<const Scene> scene);
+
+  const std::shared_ptr<const Scene>& scene() const { return scene_; }
+
+  // Uploaded when first asked for.
+  const GpuMesh& mesh(const std::shared_ptr<const Mesh>& mesh);
+
+  SurfaceVariant variantOf(int material, const Mesh& mesh, TextureFilter filter) const;
+
+  // Binds the scene's constants and environment for all draws that follow.
+  void bindScene() const;
+  // Binds one material's constants, textures and samplers.
+  void bindMaterial(int material) const;
+
+ private:
+  struct Binding {
+    GLuint unit;
+    GLuint texture;
+    GLuint sampler;
+  };
+
+  void uploadTextures();
+  void uploadMaterials(gl::Context& context);
+  void uploadEnvironment();
+  GLuint samplerFor(const glm::vec4& settings);
+
+  const gl::Functions& gl_;
+  std::shared_ptr<const Scene> scene_;
+  std::map<const Mesh*, GpuMesh> meshes_;
+  std::vector<gl::Texture> textures_;
+  std::map<std::array<float, 4>, gl::Sampler> samplers_;
+  std::vector<std::vector<Binding>> materialBindings_;  // by material
+  UniformSlots<shading::MaterialConstants> materials_;
+  UniformSlots<gpu::SceneConstants> constants_;
+  gl::Texture environmentFaces_;
+  gl::Texture environmentCube_;
+};
+
+}  // namespace pb

@@ -1,0 +1,34 @@
+// What the shaders and the C++ side agree on, compiled as both (raster/gpu_structs.h): contents of buffers, made of vec4
+// and mat4 only so that std140, std430 and C++ lay them out alike, and numbers of binding points.
+
+struct PassConstants {
+  View view;
+  vec4 image;  // x width and y height in samples, z largest radiance that the colour format holds, w number of lights
+};
+
+struct SceneConstants {
+  Sky sky;
+  Ambient ambient;
+};
+
+struct InstanceConstants {
+  mat4 worldFromObject;
+  mat4 normalMatrix;  // the upper 3x3
+  vec4 values;        // x multiplies the mesh's UV per metre, y cube of its probe, z id (exact up to 2^24), w -1 if the
+                      // transform mirrors, else 1
+};
+
+// Uniform blocks.
+const int kPassBlock = 0;
+const int kSceneBlock = 1;
+const int kInstanceBlock = 2;
+const int kMaterialBlock = 3;
+// Shader storage blocks.
+const int kLightBlock = 0;
+const int kSmoothingGroupBlock = 1;
+// Texture units. Those of a material follow kMaterialUnit in the order of the slots in MaterialConstants.
+const int kProbeUnit = 0;
+const int kEnvironmentUnit = 1;
+const int kEnvironmentCubeUnit = 2;
+const int kMaterialUnit = 3;
+const int kTextureUnits = 8;
