@@ -37,14 +37,6 @@ shading::Sky uniformSky(glm::vec3 radiance) {
   return sky;
 }
 
-Environment environmentOfFaces(std::string name, std::vector<ImageRgba> faces) {
-  shading::Sky sky = uniformSky(glm::vec3(0.0f));
-  sky.toGlow.w = 1.0f;
-  Environment environment = withAmbient(std::move(name), sky, projectAmbient(faces));
-  environment.faces = std::move(faces);
-  return environment;
-}
-
 glm::vec2 texelCentre(int x, int y, int n) { return (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(n) - 1.0f; }
 
 // Calls texel(x, y) for each texel of an n x n face.
@@ -194,6 +186,14 @@ Environment makeGradientEnvironment(const shading::Sky& sky) {
   return withAmbient("gradient", sky, projectAmbient(facesOf(sky, kQuadratureFaceSize)));
 }
 
+Environment makeCubeEnvironment(std::string name, std::vector<ImageRgba> faces) {
+  shading::Sky sky = uniformSky(glm::vec3(0.0f));
+  sky.toGlow.w = 1.0f;
+  Environment environment = withAmbient(std::move(name), sky, projectAmbient(faces));
+  environment.faces = std::move(faces);
+  return environment;
+}
+
 Environment makeProceduralSky() {
   shading::Sky sky;
   sky.horizon = {0.75f, 0.85f, 1.0f, 0.0f};
@@ -213,11 +213,11 @@ Environment loadEnvironment(const std::string& text, std::vector<std::string>& w
   if (text == "black") return makeConstantEnvironment(glm::vec3(0.0f));
   if (text == "white") return makeConstantEnvironment(glm::vec3(1.0f));
   if (text.starts_with("constant?")) return constantFromSpec(text);
-  if (text.find('*') != std::string::npos) return environmentOfFaces(text, loadSixFaces(text, warnings));
+  if (text.find('*') != std::string::npos) return makeCubeEnvironment(text, loadSixFaces(text, warnings));
   if (!std::filesystem::exists(text))
     throwInputError("environment wants sky, black, white, constant?r=..&g=..&b=.. or an image file, '{}' is none",
                     text);
-  return environmentOfFaces(text, loadEquirectangular(text, warnings));
+  return makeCubeEnvironment(text, loadEquirectangular(text, warnings));
 }
 
 shading::Ambient projectAmbient(const std::vector<ImageRgba>& faces) {

@@ -16,6 +16,9 @@ Environment makeProceduralSky();
 // Ambient light computed from the gradient by quadrature.
 Environment makeGradientEnvironment(const shading::Sky& sky);
 
+// Six square faces of one size in GL order, with the ambient light projected from them.
+Environment makeCubeEnvironment(std::string name, std::vector<ImageRgba> faces);
+
 // "sky" (procedural), "black", "white", "constant?r=..&g=..&b=..", a path of an equirectangular image (.exr, .hdr,
 // ...), or six images "PREFIX{px,nx,py,ny,pz,nz}.EXT" written as one path with a '*' in the place of px..nz.
 // Equirectangular images are resampled to cube faces; u = 0.5 is -Z, u grows towards +X, v = 0 is +Y.

@@ -1,0 +1,92 @@
+#include "scenes/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scenes/snapshot.h"
+
+namespace pb {
+namespace {
+
+std::string text(const glm::vec3& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z); }
+
+std::string counts(const Scene& scene) {
+  std::set<const Mesh*> meshes;
+  std::size_t triangles = 0;
+  for (const Instance& instance : scene.instances) {
+    meshes.insert(instance.mesh.get());
+    triangles += instance.mesh->triangleCount();
+  }
+  return fmt::format(
+      "meshes     {}\ninstances  {} with {} triangles\nmaterials  {}\ntextures   {}\nlights     {}\ntracks     {}\n",
+      meshes.size(), scene.instances.size(), triangles, scene.materials.size(), scene.textures.size(),
+      scene.lights.size(), scene.tracks.size());
+}
+
+std::string duration(const Scene& scene) {
+  if (scene.durationSeconds <= 0.0) return "duration   0 s, nothing moves\n";
+  return fmt::format("duration   {:.4g} s at {:.4g} frames/s\n", scene.durationSeconds, scene.framesPerSecond);
+}
+
+std::string bounds(const Scene& scene) {
+  Bounds all;
+  for (const auto& [world, mesh] : worldMeshes(scene, 0.0)) all.include(transformed(mesh->bounds, world));
+  return all.empty() ? "bounds     empty\n" : fmt::format("bounds     {} to {} m\n", text(all.lower), text(all.upper));
+}
+
+std::string cameras(const Scene& scene) {
+  std::string lines;
+  for (const Camera& camera : scene.cameras)
+    lines += fmt::format("camera     '{}', vertical field of view {:.4g} degrees\n", camera.name,
+                         glm::degrees(camera.verticalFov));
+  return lines;
+}
+
+std::string reasonFor(const Material& material) {
+  const glm::vec4& f = material.constants.factors;
+  if (material.constants.kind.x == shading::kSurfaceGlass) return fmt::format("transmission {:.3g}", f.w);
+  return fmt::format("metallic {:.3g}, roughness {:.3g}{}", f.x, f.y,
+                     material.metallicRoughnessTexture >= 0 ? " times its texture" : "");
+}
+
+std::string placeOf(const std::optional<ProbeSettings>& probe) {
+  if (probe && !probe->enabled) return "no probe: switched off in the node's extras";
+  if (probe && probe->position) return "probe at " + text(*probe->position) + " of the node";
+  return "probe at the centre of the bounds";
+}
+
+std::string probes(const Scene& scene) {
+  std::string lines;
+  for (const Instance& instance : scene.instances) {
+    const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
+    if (!material.isSpecularDominant()) continue;
+    lines += fmt::format("reflective '{}', material '{}' ({}): {}\n", instance.name, material.name, reasonFor(material),
+                         placeOf(scene.nodes[static_cast<std::size_t>(instance.node)].probe));
+  }
+  return lines.empty() ? "reflective nothing, so there are no probes\n" : lines;
+}
+
+std::string environment(const Scene& scene) {
+  const Environment& e = scene.environment;
+  const std::string kind =
+      e.sky.toGlow.w > 0.5f ? fmt::format("cube map of 6 x {0} x {0} texels", e.faces.front().width()) : "gradient";
+  return fmt::format("environment '{}', {}, mean ambient radiance {}\n", e.name, kind,
+                     text(glm::vec3(e.ambient.constant)));
+}
+
+std::string sentences(const char* kind, const std::vector<std::string>& list) {
+  std::string lines;
+  for (const std::string& sentence : list) lines += fmt::format("{} {}\n", kind, sentence);
+  return lines;
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene) {
+  return fmt::format("scene      {}\n", scene.name) + counts(scene) + duration(scene) + bounds(scene) + cameras(scene) +
+         probes(scene) + environment(scene) + sentences("note:", scene.notes) + sentences("warning:", scene.warnings);
+}
+
+}  // namespace pb

@@ -1,0 +1,324 @@
+#include "scenes/gltf/material.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "scenes/error.h"
+#include "scenes/gltf/validate.h"
+#include "scenes/image_io.h"
+
+namespace pb::gltf {
+namespace {
+
+using nlohmann::json;
+
+// Below: a mirror or clear glass with a probe (DESIGN: specular-dominant); above: no specular lookup.
+constexpr float kSmoothRoughness = 0.3f;
+
+enum class Content { color, data };  // colours are sRGB in integer formats, data is linear
+
+// Members of a material's extension, with the defaults of the extension's specification.
+class Extension {
+ public:
+  Extension(const json& owner, const char* name) {
+    const auto extensions = owner.find("extensions");
+    if (extensions == owner.end() || !extensions->contains(name)) return;
+    members_ = &(*extensions)[name];
+  }
+
+  bool present() const { return members_ != nullptr; }
+  bool has(const char* key) const { return present() && members_->contains(key); }
+  const json& operator[](const char* key) const { return (*members_)[key]; }
+
+  float number(const char* key, float otherwise) const { return has(key) ? (*members_)[key].get<float>() : otherwise; }
+
+  glm::vec3 color(const char* key, glm::vec3 otherwise) const {
+    if (!has(key)) return otherwise;
+    const json& v = (*members_)[key];
+    return {v[0].get<float>(), v[1].get<float>(), v[2].get<float>()};
+  }
+
+ private:
+  const json* members_ = nullptr;
+};
+
+float wrapOf(int mode) {
+  switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+      return shading::kWrapRepeat;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+      return shading::kWrapMirror;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+      return shading::kWrapClamp;
+    default:
+      throwInputError("texture wrap modes are 10497, 33071 and 33648, got {}", mode);
+  }
+}
+
+// -1 is absence; the file leaves the choice to us then.
+float filterOf(int filter, float otherwise) {
+  switch (filter) {
+    case -1:
+      return otherwise;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+      return shading::kFilterNearest;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+      return shading::kFilterLinear;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+      return shading::kFilterNearestMipNearest;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+      return shading::kFilterLinearMipNearest;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+      return shading::kFilterNearestMipLinear;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+      return shading::kFilterLinearMipLinear;
+    default:
+      throwInputError("texture filters are 9728, 9729 and 9984 to 9987, got {}", filter);
+  }
+}
+
+glm::vec4 samplerSettings(const tinygltf::Model& model, const tinygltf::Texture& texture) {
+  const tinygltf::Sampler sampler =
+      texture.sampler >= 0 ? model.samplers.at(static_cast<std::size_t>(texture.sampler)) : tinygltf::Sampler();
+  const float magnification = filterOf(sampler.magFilter, shading::kFilterLinear);
+  return {wrapOf(sampler.wrapS), wrapOf(sampler.wrapT),
+          magnification == shading::kFilterNearest ? shading::kFilterNearest : shading::kFilterLinear,
+          filterOf(sampler.minFilter, shading::kFilterLinearMipLinear)};
+}
+
+float finiteNumber(const json& value, const char* what) {
+  if (!value.is_number() || !std::isfinite(value.get<float>()))
+    throwInputError("KHR_texture_transform wants finite numbers, got {} {}", what, value.dump());
+  return value.get<float>();
+}
+
+glm::vec2 finitePair(const json& value, const char* what) {
+  if (!value.is_array() || value.size() != 2)
+    throwInputError("KHR_texture_transform wants a pair of numbers, got {} {}", what, value.dump());
+  return {finiteNumber(value[0], what), finiteNumber(value[1], what)};
+}
+
+// Offset * rotation * scale; a positive rotation turns texture coordinates counter-clockwise as seen with v pointing
+// down, so that its sine stands with the opposite sign of the usual matrix.
+void applyTextureTransform(const Extension& transform, shading::TextureSlot& slot, int& uvSet) {
+  if (!transform.present()) return;
+  const glm::vec2 offset = transform.has("offset") ? finitePair(transform["offset"], "offset") : glm::vec2(0.0f);
+  const glm::vec2 scale = transform.has("scale") ? finitePair(transform["scale"], "scale") : glm::vec2(1.0f);
+  const float angle = transform.has("rotation") ? finiteNumber(transform["rotation"], "rotation") : 0.0f;
+  const float c = std::cos(angle), s = std::sin(angle);
+  slot.matrix = {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
+  slot.offset = {offset, 0.0f, 0.0f};
+  if (transform.has("texCoord")) uvSet = static_cast<int>(finiteNumber(transform["texCoord"], "texCoord"));
+}
+
+// Textures by image and content, so that each is decoded once.
+class TextureReader {
+ public:
+  TextureReader(const Document& document, std::vector<Texture>& textures) : document_(document), textures_(textures) {}
+
+  int indexOf(const tinygltf::Texture& texture, int textureIndex, Content content) {
+    if (texture.source < 0) throwInputError("textures/{} has no image in a supported format", textureIndex);
+    const auto [found, isNew] = indices_.try_emplace({texture.source, content}, static_cast<int>(textures_.size()));
+    if (isNew) textures_.push_back(decode(texture.source, content));
+    return found->second;
+  }
+
+ private:
+  Texture decode(int image, Content content) const {
+    const json& description = document_.json["images"][static_cast<std::size_t>(image)];
+    const std::string name = description.value("name", description.value("uri", fmt::format("image {}", image)));
+    const std::string bytes = imageBytes(document_, image);
+    LoadedImage loaded = readImage(std::as_bytes(std::span(bytes)), fmt::format("images/{}", image));
+    if (content == Content::color && loaded.encoding == Encoding::srgb)
+      for (glm::vec4& p : loaded.pixels) p = {linearFromSrgb(p.x), linearFromSrgb(p.y), linearFromSrgb(p.z), p.w};
+    return makeTexture(name.starts_with("data:") ? fmt::format("image {}", image) : name, std::move(loaded.pixels));
+  }
+
+  const Document& document_;
+  std::vector<Texture>& textures_;
+  std::map<std::pair<int, Content>, int> indices_;
+};
+
+// One material at a time, with the place for its messages.
+class MaterialReader {
+ public:
+  MaterialReader(const Document& document, std::size_t index, TextureReader& textures, Scene& scene)
+      : document_(document),
+        source_(document.model.materials[index]),
+        json_(document.json["materials"][index]),
+        textures_(textures),
+        scene_(scene),
+        place_("material " + label(source_.name, index)) {
+    material_ =
+        makeDiffuseMaterial(source_.name.empty() ? fmt::format("material {}", index) : source_.name, glm::vec3(1.0f));
+  }
+
+  Material read() {
+    readFactors();
+    readTextures();
+    readExtensions();
+    classify();
+    warnIgnored();
+    return material_;
+  }
+
+ private:
+  void warn(const std::string& what) { scene_.warnings.push_back(place_ + ": " + what); }
+
+  void readFactors() {
+    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+    shading::MaterialConstants& c = material_.constants;
+    for (int i = 0; i < 4; ++i) c.baseColor[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 3; ++i) c.emission[i] = static_cast<float>(source_.emissiveFactor[static_cast<std::size_t>(i)]);
+    c.emission.w = static_cast<float>(source_.normalTexture.scale);
+    c.factors = {pbr.metallicFactor, pbr.roughnessFactor, source_.occlusionTexture.strength, 0.0};
+    material_.doubleSided = source_.doubleSided;
+  }
+
+  // Returns the texture's index in the scene, -1 for none, and completes the slot.
+  int readSlot(int texture, int uvSet, const json& info, Content content, shading::TextureSlot& slot) {
+    if (texture < 0) return -1;
+    const tinygltf::Texture& source = document_.model.textures.at(static_cast<std::size_t>(texture));
+    applyTextureTransform(Extension(info, "KHR_texture_transform"), slot, uvSet);
+    if (uvSet < 0 || uvSet > 1) {
+      warn(fmt::format("texture coordinates {} are not supported, 0 are used", uvSet));
+      uvSet = 0;
+    }
+    slot.offset.z = static_cast<float>(uvSet);
+    slot.offset.w = 1.0f;
+    slot.sampler_ = samplerSettings(document_.model, source);
+    return textures_.indexOf(source, texture, content);
+  }
+
+  void readTextures() {
+    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+    const json none = json::object();
+    const auto infoAt = [&](const json& owner, const char* key) { return owner.value(key, none); };
+    const json pbrJson = infoAt(json_, "pbrMetallicRoughness");
+    const auto slot = [&](const auto& info, const json& owner, const char* key, Content content,
+                          shading::TextureSlot& target) {
+      return readSlot(info.index, info.texCoord, infoAt(owner, key), content, target);
+    };
+    shading::MaterialConstants& c = material_.constants;
+    material_.baseColorTexture =
+        slot(pbr.baseColorTexture, pbrJson, "baseColorTexture", Content::color, c.baseColorSlot);
+    material_.metallicRoughnessTexture =
+        slot(pbr.metallicRoughnessTexture, pbrJson, "metallicRoughnessTexture", Content::data, c.metallicRoughnessSlot);
+    material_.normalTexture = slot(source_.normalTexture, json_, "normalTexture", Content::data, c.normalSlot);
+    material_.emissionTexture = slot(source_.emissiveTexture, json_, "emissiveTexture", Content::color, c.emissionSlot);
+    material_.occlusionTexture =
+        slot(source_.occlusionTexture, json_, "occlusionTexture", Content::data, c.occlusionSlot);
+  }
+
+  void readExtensions() {
+    shading::MaterialConstants& c = material_.constants;
+    const float strength = Extension(json_, "KHR_materials_emissive_strength").number("emissiveStrength", 1.0f);
+    c.emission = glm::vec4(strength * glm::vec3(c.emission), c.emission.w);
+    c.factors.w = Extension(json_, "KHR_materials_transmission").number("transmissionFactor", 0.0f);
+    c.kind.y = Extension(json_, "KHR_materials_ior").number("ior", 1.5f);
+    if (c.kind.y < 1.0f) {
+      warn(fmt::format("indices of refraction below 1 are not supported, 1.5 stands for {}", c.kind.y));
+      c.kind.y = 1.5f;
+    }
+    const Extension specular(json_, "KHR_materials_specular");
+    material_.specularFactor = specular.number("specularFactor", 1.0f);
+    material_.specularColor = specular.color("specularColorFactor", glm::vec3(1.0f));
+    const Extension volume(json_, "KHR_materials_volume");
+    material_.thickness = volume.number("thicknessFactor", 0.0f);
+    material_.attenuationDistance = volume.number("attenuationDistance", std::numeric_limits<float>::infinity());
+    material_.attenuationColor = volume.color("attenuationColor", glm::vec3(1.0f));
+    material_.dispersion = Extension(json_, "KHR_materials_dispersion").number("dispersion", 0.0f);
+  }
+
+  // Mean of metallic (x) and roughness (y) over the texture.
+  glm::vec2 meanMetallicRoughness() const {
+    const glm::vec4& factors = material_.constants.factors;
+    if (material_.metallicRoughnessTexture < 0) return glm::vec2(factors);
+    // The last level is one texel: the mean.
+    const auto& levels = scene_.textures[static_cast<std::size_t>(material_.metallicRoughnessTexture)].levels;
+    const glm::vec4 mean = levels.back()(0, 0);
+    return {factors.x * mean.z, factors.y * mean.y};
+  }
+
+  void classify() {
+    const auto [metallic, roughness] = std::pair(meanMetallicRoughness().x, meanMetallicRoughness().y);
+    float& kind = material_.constants.kind.x;
+    if (Extension(json_, "KHR_materials_unlit").present()) {
+      kind = shading::kSurfaceUnlit;
+    } else if (material_.constants.factors.w > 0.5f) {
+      kind = shading::kSurfaceGlass;
+      if (roughness > 0.0f) warn(fmt::format("roughness {:.3g} is rendered as perfectly smooth glass", roughness));
+    } else if (metallic > 0.5f && roughness < kSmoothRoughness) {
+      kind = shading::kSurfaceMirror;
+      if (roughness > 0.0f) warn(fmt::format("roughness {:.3g} is rendered as a perfectly smooth mirror", roughness));
+    } else if (metallic > 0.5f) {
+      warn(fmt::format("a metal of roughness {:.3g} is rendered as diffuse with its base colour", roughness));
+    }
+  }
+
+  void warnIgnored() {
+    if (source_.alphaMode != "OPAQUE") warn(fmt::format("alpha mode {} is rendered opaque", source_.alphaMode));
+    for (const auto& [name, value] : source_.extensions)
+      if (!isSupportedExtension(name)) warn("extension " + name + " is ignored");
+    for (const auto& [extension, key] :
+         {std::pair("KHR_materials_transmission", "transmissionTexture"),
+          std::pair("KHR_materials_volume", "thicknessTexture"), std::pair("KHR_materials_specular", "specularTexture"),
+          std::pair("KHR_materials_specular", "specularColorTexture")})
+      if (Extension(json_, extension).has(key)) warn(fmt::format("{} is ignored", key));
+    const bool glass = material_.constants.kind.x == shading::kSurfaceGlass;
+    if (material_.constants.factors.w > 0.0f && !glass)
+      warn(fmt::format("transmission {:.3g} is rendered opaque", material_.constants.factors.w));
+    if (glass && std::isfinite(material_.attenuationDistance))
+      warn("KHR_materials_volume's attenuation is not rendered");
+    if (glass && material_.dispersion > 0.0f) warn("KHR_materials_dispersion is not rendered");
+    if (material_.specularFactor != 1.0f || material_.specularColor != glm::vec3(1.0f))
+      warn("KHR_materials_specular is not rendered");
+  }
+
+  const Document& document_;
+  const tinygltf::Material& source_;
+  const json& json_;
+  TextureReader& textures_;
+  Scene& scene_;
+  std::string place_;
+  Material material_;
+};
+
+// glTF 2.0, section 3.9.6: metallic 1 and roughness 1, so not a mirror.
+Material defaultMaterial() {
+  Material material = makeDiffuseMaterial("default", glm::vec3(1.0f));
+  material.constants.factors.x = 1.0f;
+  return material;
+}
+
+bool needsDefaultMaterial(const tinygltf::Model& model) {
+  return std::ranges::any_of(model.meshes, [](const tinygltf::Mesh& mesh) {
+    return std::ranges::any_of(mesh.primitives, [](const auto& primitive) { return primitive.material < 0; });
+  });
+}
+
+}  // namespace
+
+void readMaterials(const Document& document, Scene& scene) {
+  TextureReader textures(document, scene.textures);
+  for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
+    try {
+      scene.materials.push_back(MaterialReader(document, i, textures, scene).read());
+    } catch (const Error& e) {
+      throw Error(e.kind(), fmt::format("material {}: {}", label(document.model.materials[i].name, i), e.what()));
+    }
+  }
+  if (!needsDefaultMaterial(document.model)) return;
+  scene.materials.push_back(defaultMaterial());
+  scene.warnings.emplace_back("primitives without material are rendered as white diffuse");
+}
+
+int materialIndex(const Document& document, const tinygltf::Primitive& primitive) {
+  return primitive.material >= 0 ? primitive.material : static_cast<int>(document.model.materials.size());
+}
+
+}  // namespace pb::gltf

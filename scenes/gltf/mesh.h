@@ -1,0 +1,18 @@
+// glTF primitives as meshes of the scene model.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenes/gltf/document.h"
+#include "scenes/scene.h"
+
+namespace pb::gltf {
+
+// Triangles, strips and fans become triangle lists. nullptr, with a warning, for what can't be drawn: points, lines,
+// primitives without positions or without area.
+std::shared_ptr<const Mesh> readPrimitive(const Document& document, int mesh, int primitive, bool needsTangents,
+                                          std::vector<std::string>& warnings);
+
+}  // namespace pb::gltf

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "scenes/builtin.h"
+#include "scenes/environment.h"
+#include "scenes/error.h"
+#include "scenes/gltf_load.h"
+#include "scenes/scene.h"
+#include "scenes/spec.h"
+
+namespace pb {
+namespace {
+
+constexpr std::string_view kBuiltinPrefix = "builtin:";
+
+std::optional<std::string> takeParameter(Spec& spec, std::string_view key) {
+  const auto found = std::ranges::find(spec.parameters, key, &std::pair<std::string, std::string>::first);
+  if (found == spec.parameters.end()) return std::nullopt;
+  std::string value = std::move(found->second);
+  spec.parameters.erase(found);
+  return value;
+}
+
+// The node of that name and everything below it.
+std::vector<bool> subtree(const Scene& scene, const std::string& name) {
+  std::vector<bool> inside(scene.nodes.size(), false);
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const int parent = scene.nodes[n].parent;
+    inside[n] = scene.nodes[n].name == name || (parent >= 0 && inside[static_cast<std::size_t>(parent)]);
+  }
+  return inside;
+}
+
+// Perfect mirrors, added to a scene when first wanted: one seen from the front, one seen from both sides.
+class MirrorMaterials {
+ public:
+  explicit MirrorMaterials(Scene& scene) : scene_(scene) {}
+
+  // The one that is seen from the same sides as the given material.
+  int like(int material) {
+    const bool doubleSided = scene_.materials[static_cast<std::size_t>(material)].doubleSided;
+    std::optional<int>& index = indices_[doubleSided ? 1 : 0];
+    if (index) return *index;
+    Material mirror = makeMirrorMaterial(doubleSided ? "double-sided mirror" : "mirror");
+    mirror.doubleSided = doubleSided;
+    scene_.materials.push_back(std::move(mirror));
+    return *(index = static_cast<int>(scene_.materials.size() - 1));
+  }
+
+ private:
+  Scene& scene_;
+  std::array<std::optional<int>, 2> indices_;
+};
+
+void makeMirrors(Scene& scene, const std::string& nodeName, const std::string& reference) {
+  const bool all = nodeName == "all";
+  const std::vector<bool> chosen = all ? std::vector<bool>(scene.nodes.size(), true) : subtree(scene, nodeName);
+  MirrorMaterials mirrors(scene);
+  bool any = false;
+  for (Instance& instance : scene.instances) {
+    if (!chosen[static_cast<std::size_t>(instance.node)]) continue;
+    instance.material = mirrors.like(instance.material);
+    any = true;
+  }
+  if (any) return;
+  std::vector<std::string> names = {"all"};
+  for (const Instance& instance : scene.instances)
+    names.push_back(scene.nodes[static_cast<std::size_t>(instance.node)].name);
+  throwInputError("scene '{}': mirror wants a node with a mesh, {}", reference, unknownMessage(nodeName, names));
+}
+
+Scene loadFile(Spec spec, const std::string& reference, const std::optional<Environment>& environment) {
+  const std::optional<std::string> mirror = takeParameter(spec, "mirror");
+  const std::vector<std::string> known = {"mirror", "environment"};
+  if (!spec.parameters.empty())
+    throwInputError("scene '{}': parameter {}", reference, unknownMessage(spec.parameters.front().first, known));
+  Scene scene = loadGltf(spec.name, environment);
+  if (mirror) makeMirrors(scene, *mirror, reference);
+  return scene;
+}
+
+Scene makeBuiltin(Spec spec, const std::optional<Environment>& environment) {
+  spec.name.erase(0, kBuiltinPrefix.size());
+  Scene scene = makeBuiltinScene(spec);
+  if (environment) scene.environment = *environment;
+  finishScene(scene);
+  return scene;
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> loadScene(const std::string& reference) {
+  Spec spec = parseSpec(reference);
+  std::vector<std::string> warnings;
+  std::optional<Environment> environment;
+  if (const std::optional<std::string> text = takeParameter(spec, "environment"))
+    environment = loadEnvironment(*text, warnings);
+  Scene scene = spec.name.starts_with(kBuiltinPrefix) ? makeBuiltin(std::move(spec), environment)
+                                                      : loadFile(std::move(spec), reference, environment);
+  scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
+  return std::make_shared<const Scene>(std::move(scene));
+}
+
+}  // namespace pb
