@@ -23,6 +23,7 @@ constexpr int kMaxFrame = 1'000'000;
 constexpr std::size_t kMaxFrames = 10'000;  // a scene
 constexpr int kMaxDepth = 64;
 constexpr double kMaxStops = 32;
+constexpr double kMaxTolerance = 1e9;
 
 ImageSettings readImage(TomlReader& suite) {
   ImageSettings image;
@@ -232,9 +233,8 @@ Tolerance readTolerance(const toml::node& node, const std::string& key, const st
   } else if (const toml::node* all = reader.find("all")) {
     tolerance = readToleranceTree(Tolerance::Kind::all, *all, key, file);
   } else {
-    const double most = std::numeric_limits<double>::max();
-    const std::optional<double> relative = reader.number("relative", 0, most);
-    const std::optional<double> absolute = reader.number("absolute", 0, most);
+    const std::optional<double> relative = reader.number("relative", 0, kMaxTolerance);
+    const std::optional<double> absolute = reader.number("absolute", 0, kMaxTolerance);
     if (!relative && !absolute)
       throwInputError("{}: the tolerance of '{}' wants relative, absolute, any or all", placeOf(file, node), key);
     tolerance.relative = relative.value_or(0);

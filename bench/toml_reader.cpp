@@ -45,7 +45,7 @@ std::optional<double> TomlReader::number(std::string_view key, double minimum, d
   if (node == nullptr) return std::nullopt;
   const std::optional<double> value = node->is_number() ? node->value<double>() : std::nullopt;
   if (!value || !(*value >= minimum && *value <= maximum))
-    throwInputError("{}: '{}' wants a number from {} to {}, got {}", placeOf(file_, *node), key, minimum, maximum,
+    throwInputError("{}: '{}' wants a number from {:g} to {:g}, got {}", placeOf(file_, *node), key, minimum, maximum,
                     scalarText(*node, key, file_));
   return value;
 }

@@ -1,0 +1,222 @@
+#include "bench/suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kHead = "schema = 1\nname = \"s\"\n";
+constexpr const char* kScene = "[[scene]]\nuse = \"builtin:mirrors\"\n";
+
+Suite parse(const std::string& text) { return parseSuite(text, "suites/s.toml", "suites"); }
+
+std::string messageOf(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Failure::input);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Suite, OfTheDesign_IsReadWhole) {
+  const Suite suite = parse(R"(
+schema = 1
+name = "all"
+image = { size = [320, 200], samples = 9 }
+reference = { depth = 3, diffuse = "local", spp = 8, max_noise = 1e-5 }
+cost = { repetitions = 5 }
+technique = { feedback = "sky", bounces = 2 }
+
+[[scene]]
+use = "builtin:mirrors?count=5"
+frames = "2..4"
+warmup = 1
+camera = "front"
+environment = "sky"
+exposure = -1.5
+
+[[scene]]
+use = "glass.glb?mirror=all"
+frames = [0, 3, 9]
+
+[grid]
+refresh = ["every-frame", "faces?k=1"]
+resolution = [64, 128]
+
+[tolerance]
+flip_hdr = { relative = 0.02, absolute = 1e-4 }
+mse = { any = [ { absolute = 1.0 }, { all = [ { relative = 0.5 }, { absolute = 2.0 } ] } ] }
+)");
+  EXPECT_EQ(suite.name, "all");
+  EXPECT_EQ(suite.image, (ImageSettings{320, 200, 3}));
+  EXPECT_EQ(suite.reference.depth, 3);
+  EXPECT_EQ(suite.reference.spp, 8);
+  EXPECT_EQ(suite.reference.maxNoise, 1e-5);
+  EXPECT_EQ(suite.cost.repetitions, 5);
+  EXPECT_EQ(suite.technique.feedback, Feedback::sky);
+  EXPECT_EQ(suite.technique.bounces, 2);
+
+  ASSERT_EQ(suite.scenes.size(), 2u);
+  EXPECT_EQ(suite.scenes[0].name, "builtin:mirrors?count=5&environment=sky");
+  EXPECT_EQ(suite.scenes[0].reference, "builtin:mirrors?count=5&environment=sky");
+  EXPECT_THAT(suite.scenes[0].frames, ElementsAre(2, 3, 4));
+  EXPECT_EQ(suite.scenes[0].startFrame(), 1);
+  EXPECT_EQ(suite.scenes[0].camera, "front");
+  EXPECT_EQ(suite.scenes[0].exposure, -1.5);
+  EXPECT_EQ(suite.scenes[1].name, "glass.glb?mirror=all");
+  EXPECT_EQ(suite.scenes[1].reference, "suites/glass.glb?mirror=all");
+  EXPECT_THAT(suite.scenes[1].frames, ElementsAre(0, 3, 9));
+  EXPECT_EQ(suite.scenes[1].startFrame(), 0);
+
+  // In the axis table's order, whatever the file's is.
+  EXPECT_THAT(suite.grid,
+              ElementsAre(GridAxis{"resolution", {"64", "128"}}, GridAxis{"refresh", {"every-frame", "faces?k=1"}}));
+
+  ASSERT_EQ(suite.tolerance.size(), 2u);
+  EXPECT_EQ(suite.tolerance[0].first, "mse");  // in the metric table's order
+  EXPECT_EQ(suite.tolerance[0].second.kind, Tolerance::Kind::any);
+  EXPECT_EQ(suite.tolerance[0].second.children[1].kind, Tolerance::Kind::all);
+  EXPECT_EQ(suite.tolerance[0].second.children[1].children[1].absolute, 2.0);
+  EXPECT_EQ(suite.tolerance[1].second.relative, 0.02);
+  EXPECT_EQ(suite.tolerance[1].second.absolute, 1e-4);
+}
+
+TEST(Suite, WithTheLeast_HasTheDocumentedDefaults) {
+  const Suite suite = parse(std::string(kHead) + kScene);
+  EXPECT_EQ(suite.image, (ImageSettings{640, 360, 2}));
+  EXPECT_FALSE(suite.reference.depth.has_value());
+  EXPECT_FALSE(suite.reference.maxNoise.has_value());
+  EXPECT_EQ(suite.technique, Technique());
+  EXPECT_THAT(suite.scenes[0].frames, ElementsAre(0));
+  EXPECT_TRUE(suite.grid.empty());
+}
+
+TEST(Suite, EnvironmentFile_IsRelativeToTheSuiteLikeTheScene) {
+  const Suite suite = parse(std::string(kHead) + "[[scene]]\nuse = \"a.glb?environment=x.exr\"\n");
+  EXPECT_EQ(suite.scenes[0].reference, "suites/a.glb?environment=suites/x.exr");
+  EXPECT_EQ(suite.scenes[0].name, "a.glb?environment=x.exr");
+}
+
+struct BadSuite {
+  const char* text;  // after the two lines of kHead
+  const char* message;
+};
+
+class BadSuites : public testing::TestWithParam<BadSuite> {};
+
+TEST_P(BadSuites, AreRefusedByRuleValueAndLine) {
+  EXPECT_EQ(messageOf(kHead + std::string(GetParam().text)), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadSuites,
+    testing::Values(
+        BadSuite{"gird = 1\n[[scene]]\nuse = \"x\"", "suites/s.toml:3: key 'gird' is not known; nearest is 'grid'"},
+        BadSuite{"image = 3\n[[scene]]\nuse = \"x\"", "suites/s.toml:3: 'image' wants a table { ... }"},
+        BadSuite{"image = { sise = [1, 2] }\n", "suites/s.toml:3: key 'sise' is not known; nearest is 'size'"},
+        BadSuite{"image = { size = [1, 2, 3] }\n", "suites/s.toml:3: 'size' wants [width, height], got 3 values"},
+        BadSuite{"image = { size = [0, 360] }\n",
+                 "suites/s.toml:3: an image size is WIDTHxHEIGHT with sides from 16 to 16384, got '0x360'"},
+        BadSuite{"image = { size = [1e300, 360] }\n",
+                 "suites/s.toml:3: an image size is WIDTHxHEIGHT with sides from 16 to 16384, got '1e+300x360'"},
+        BadSuite{"image = { samples = 5 }\n", "suites/s.toml:3: samples wants a square number from 1 to 64, got 5"},
+        BadSuite{"image = { samples = -1 }\n", "suites/s.toml:3: 'samples' wants an integer from 1 to 64, got -1"},
+        BadSuite{"image = { size = [8000, 16], samples = 9 }\n",
+                 "suites/s.toml:3: 'image' may have at most 16384 samples along a side, got 24000"},
+        BadSuite{"reference = { depth = 0 }\n",
+                 "suites/s.toml:3: depth wants 'converged' or an integer from 1 to 64, got '0'"},
+        BadSuite{"reference = { diffuse = \"traced\" }\n",
+                 "suites/s.toml:3: diffuse = 'traced' is not available yet, only 'local' is"},
+        BadSuite{"reference = { diffuse = \"traecd\" }\n", "suites/s.toml:3: 'diffuse' wants local, got traecd"},
+        BadSuite{"reference = { spp = 3 }\n",
+                 "suites/s.toml:3: 'spp' wants an even number, one half for each of two images, got 3"},
+        BadSuite{"reference = { max_noise = nan }\n",
+                 "suites/s.toml:3: 'max_noise' wants a number from 0 to 1, got nan"},
+        BadSuite{"cost = { repetitions = 1e9 }\n",
+                 "suites/s.toml:3: 'repetitions' wants an integer from 0 to 1000, got 1000000000"},
+        BadSuite{"technique = { bounces = 0 }\n", "suites/s.toml:3: axis 'bounces' wants integers from 1 to 16, got 0"},
+        BadSuite{"", "suites/s.toml:1: the suite needs a key 'scene'"},
+        BadSuite{"scene = []", "suites/s.toml:3: the suite needs at least one [[scene]]"},
+        BadSuite{"[[scene]]\nframes = 1", "suites/s.toml:3: a [[scene]] needs a key 'use'"},
+        BadSuite{"[[scene]]\nuse = 3", "suites/s.toml:4: 'use' wants a string"},
+        BadSuite{"[[scene]]\nuse = \"x\"\nframes = \"3..1\"",
+                 "suites/s.toml:5: 'frames' wants an increasing range of at most 10000 frames, got '3..1'"},
+        BadSuite{"[[scene]]\nuse = \"x\"\nframes = -1",
+                 "suites/s.toml:5: a frame is an integer from 0 to 1000000, got '-1'"},
+        BadSuite{"[[scene]]\nuse = \"x\"\nframes = [1, 1]",
+                 "suites/s.toml:5: 'frames' wants increasing numbers, got 1 after 1"},
+        BadSuite{"[[scene]]\nuse = \"x\"\nframes = []", "suites/s.toml:5: 'frames' wants 1 to 10000 frames, got 0"},
+        BadSuite{"[[scene]]\nuse = \"x\"\nexposure = inf",
+                 "suites/s.toml:5: 'exposure' wants a number from -32 to 32, got inf"},
+        BadSuite{"[[scene]]\nuse = \"x?environment=sky\"\nenvironment = \"black\"",
+                 "suites/s.toml:4: 'environment' stands both in 'x?environment=sky' and beside it"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[[scene]]\nuse = \"x\"",
+                 "suites/s.toml:5: scene 'x' stands twice with the same camera"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolution = [64,\n  100]",
+                 "suites/s.toml:7: axis 'resolution' wants powers of two from 8 to 4096, got 100"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolution = [64, 64]",
+                 "suites/s.toml:6: axis 'resolution' has the value 64 twice"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolution = []", "suites/s.toml:6: axis 'resolution' has no values"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolution = 64",
+                 "suites/s.toml:6: 'resolution' wants a list [ ... ]"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolutoin = [64]",
+                 "suites/s.toml:6: key 'resolutoin' is not known; nearest is 'resolution'"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[tolerance]\nflip_hrd = { relative = 1 }",
+                 "suites/s.toml:6: key 'flip_hrd' is not known; nearest is 'flip_hdr'"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[tolerance]\nmse = {}",
+                 "suites/s.toml:6: the tolerance of 'mse' wants relative, absolute, any or all"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[tolerance]\nmse = { any = [] }", "suites/s.toml:6: 'mse' has an empty list"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[tolerance]\nmse = { absolute = -1 }",
+                 "suites/s.toml:6: 'absolute' wants a number from 0 to 1e+09, got -1"}));
+
+TEST(Suite, OfAnotherSchema_IsRefused) {
+  EXPECT_EQ(messageOf("schema = 2\nname = \"s\"\n"), "suites/s.toml:1: 'schema' wants 1, the only version there is");
+  EXPECT_EQ(messageOf("name = \"s\"\n"), "suites/s.toml:1: the suite needs a key 'schema'");
+}
+
+TEST(Suite, ThatIsNoToml_IsRefusedWithItsLine) {
+  EXPECT_THAT(messageOf("schema = 1\nname = \"s\n"), testing::StartsWith("suites/s.toml:2: "));
+}
+
+TEST(Suite, UnknownName_IsRefusedWithTheNearestShippedOne) {
+  try {
+    loadSuite("quikc");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'quikc' is not known; nearest is 'quick'"));
+  }
+}
+
+TEST(ShippedSuites, AllParse) {
+  EXPECT_THAT(shippedSuites(), testing::Contains("quick"));
+  for (const std::string& name : shippedSuites()) EXPECT_EQ(loadSuite(name).name, name);
+}
+
+TEST(SuiteOptions, SetGridAxis_ReplacesOrAddsInTheTablesOrder) {
+  Suite suite = parse(std::string(kHead) + kScene + "[grid]\nbounces = [1, 2]\n");
+  setGridAxis(suite, {"resolution", {"64"}});
+  setGridAxis(suite, {"bounces", {"3"}});
+  EXPECT_THAT(suite.grid, ElementsAre(GridAxis{"resolution", {"64"}}, GridAxis{"bounces", {"3"}}));
+}
+
+TEST(SuiteText, DiffersWhenAnythingThatIsMeasuredDiffers) {
+  const std::string base = std::string(kHead) + kScene;
+  const std::string text = canonicalText(parse(base));
+  EXPECT_EQ(canonicalText(parse(base + "[tolerance]\nmse = { relative = 1 }\n")), text);
+  for (const char* change :
+       {"frames = 1\n", "camera = \"c\"\n", "exposure = 1\n", "environment = \"black\"\n", "warmup = 3\n",
+        "[grid]\nbounces = [2]\n", "[image]\nsamples = 1\n", "[reference]\nspp = 2\n", "[reference]\ndepth = 1\n",
+        "[reference]\nmax_noise = 1e-3\n", "[cost]\nrepetitions = 1\n", "[technique]\nbounces = 2\n"})
+    EXPECT_NE(canonicalText(parse(base + change)), text) << change;
+}
+
+}  // namespace
+}  // namespace pb
