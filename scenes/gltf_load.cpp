@@ -149,11 +149,15 @@ class SceneBuilder {
     return scene_.materials[static_cast<std::size_t>(material)].normalTexture >= 0;
   }
 
-  // Meshes are made once, also when several nodes show them.
+  // A mesh is made once for all primitives with the same data, also when they differ in material.
   std::shared_ptr<const Mesh> mesh(int meshIndex, int primitive, int material) {
-    const auto [found, isNew] = meshes_.try_emplace({meshIndex, primitive});
-    if (isNew)
-      found->second = gltf::readPrimitive(document_, meshIndex, primitive, needsTangents(material), scene_.warnings);
+    json data =
+        document_
+            .json["meshes"][static_cast<std::size_t>(meshIndex)]["primitives"][static_cast<std::size_t>(primitive)];
+    data.erase("material");
+    const bool tangents = needsTangents(material);
+    const auto [found, isNew] = meshes_.try_emplace({std::move(data), tangents});
+    if (isNew) found->second = gltf::readPrimitive(document_, meshIndex, primitive, tangents, scene_.warnings);
     return found->second;
   }
 
@@ -289,8 +293,8 @@ class SceneBuilder {
   const gltf::Document& document_;
   const tinygltf::Model& model_;
   Scene scene_;
-  std::vector<int> nodeIndices_;  // in scene_, -1 for nodes outside of the scene
-  std::map<std::pair<int, int>, std::shared_ptr<const Mesh>> meshes_;
+  std::vector<int> nodeIndices_;                                         // in scene_, -1 for nodes outside of the scene
+  std::map<std::pair<json, bool>, std::shared_ptr<const Mesh>> meshes_;  // by data and need of tangents
   std::set<std::pair<std::size_t, TrackTarget>> animated_;
   std::size_t animationCount_ = 0;
 };

@@ -84,7 +84,8 @@ void computeFlatNormals(Mesh& mesh) {
 void normaliseNormals(Mesh& mesh) {
   for (glm::vec3& n : mesh.normals) {
     if (!isFinite(n)) throwInputError("mesh '{}' has a normal that is not finite", mesh.name);
-    n = shading::safeNormalize(n);
+    // Dividing what is unit already would change its last bits, and a saved scene would load with other normals.
+    if (std::abs(glm::dot(n, n) - 1.0f) > 1e-6f) n = shading::safeNormalize(n);
   }
 }
 

@@ -110,7 +110,8 @@ void applyTextureTransform(const Extension& transform, shading::TextureSlot& slo
   const glm::vec2 scale = transform.has("scale") ? finitePair(transform["scale"], "scale") : glm::vec2(1.0f);
   const float angle = transform.has("rotation") ? finiteNumber(transform["rotation"], "rotation") : 0.0f;
   const float c = std::cos(angle), s = std::sin(angle);
-  slot.matrix = {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
+  // A difference, because a sign would make a negative zero where there is no rotation.
+  slot.matrix = {c * scale.x, 0.0f - s * scale.x, s * scale.y, c * scale.y};
   slot.offset = {offset, 0.0f, 0.0f};
   if (transform.has("texCoord")) uvSet = static_cast<int>(finiteNumber(transform["texCoord"], "texCoord"));
 }
