@@ -23,7 +23,7 @@ BandFeatures::BandFeatures(const Kernels& kernels, const Image& image, int first
   linear_.resize(3 * rows * width_);
   opponent_.resize(3 * rows * width_);
   padded_.resize(kKernelCount * paddedWidth_);
-  scratch_.resize(3 * width_);
+  scratch_.resize(4 * width_);
   for (int y = firstStoredRow_; y < endStoredRow_; ++y) {
     splitChannels(&image(0, y).x, image.width(), rowsOf(linear_, y - firstStoredRow_));
   }
@@ -57,7 +57,7 @@ void BandFeatures::setDisplay(const Display& display) {
 
 // rowAt(i) is the row of values at offset i from the filtered ones.
 template <class RowAt>
-void BandFeatures::addFiltered(const Kernel& kernel, RowAt rowAt, float* out) {
+void BandFeatures::filter(const Kernel& kernel, RowAt rowAt, float* out) {
   taps_.clear();
   int offset = kernel.firstOffset;
   for (const float weight : kernel.weights) {
@@ -67,11 +67,11 @@ void BandFeatures::addFiltered(const Kernel& kernel, RowAt rowAt, float* out) {
   const int width = static_cast<int>(width_);
   switch (kernel.symmetry) {
     case Symmetry::even:
-      return addEvenTaps(taps_, width, out);
+      return sumEvenTaps(taps_, width, out);
     case Symmetry::odd:
-      return addOddTaps(taps_, width, out);
+      return sumOddTaps(taps_, width, out);
     case Symmetry::curvature:
-      return addCurvatureTaps(taps_, rowAt(0), width, out);
+      return sumCurvatureTaps(taps_, rowAt(0), width, out);
   }
 }
 
@@ -79,17 +79,15 @@ void BandFeatures::computeRow(int y, float* block) {
   const FeatureRow out(block, static_cast<int>(width_));
   filterColumns(y);
   extendBorders();
-  const Row3 colors = rowsOf(scratch_, 0);
-  filterColors(colors);
-  opponentToLab({colors[0], colors[1], colors[2]}, static_cast<int>(width_), out);
-  detectFeatures(out);
+  computeColors(out);
+  computeGradient(kEdge, out.edge);
+  computeGradient(kPoint, out.point);
 }
 
 void BandFeatures::filterColumns(int y) {
-  std::fill(padded_.begin(), padded_.end(), 0.0f);
   for (int name = 0; name < kKernelCount; ++name) {
     const int channel = kChannelOf[static_cast<std::size_t>(name)];
-    addFiltered(
+    filter(
         kernels_.kernels[static_cast<std::size_t>(name)], [&](int i) { return opponentRow(channel, y + i); },
         paddedRow(name));
   }
@@ -106,28 +104,23 @@ void BandFeatures::extendBorders() {
 
 void BandFeatures::filterPadded(KernelName source, KernelName kernel, float* out) {
   const float* const row = paddedRow(source);
-  addFiltered(
+  filter(
       kernels_[kernel], [row](int i) { return row + i; }, out);
 }
 
-void BandFeatures::filterColors(const Row3& out) {
-  std::fill(scratch_.begin(), scratch_.end(), 0.0f);
-  filterPadded(kAchromatic, kAchromatic, out[0]);
-  filterPadded(kRedGreen, kRedGreen, out[1]);
-  filterPadded(kBlueYellow1, kBlueYellow1, out[2]);
-  filterPadded(kBlueYellow2, kBlueYellow2, out[2]);
+void BandFeatures::computeColors(const FeatureRow& out) {
+  for (const KernelName name : {kAchromatic, kRedGreen, kBlueYellow1, kBlueYellow2}) {
+    filterPadded(name, name, scratchRow(name));
+  }
+  opponentToLab({scratchRow(kAchromatic), scratchRow(kRedGreen), scratchRow(kBlueYellow1), scratchRow(kBlueYellow2)},
+                static_cast<int>(width_), out);
 }
 
-// Derivative along one direction, smoothing along the other.
-void BandFeatures::detectFeatures(const FeatureRow& out) {
-  const auto gradient = [&](KernelName derivative, float* result) {
-    std::fill(scratch_.begin(), scratch_.end(), 0.0f);
-    filterPadded(kSmooth, derivative, scratchRow(0));
-    filterPadded(derivative, kSmooth, scratchRow(1));
-    magnitude(scratchRow(0), scratchRow(1), static_cast<int>(width_), result);
-  };
-  gradient(kEdge, out.edge);
-  gradient(kPoint, out.point);
+// Derivative along one direction and smoothing along the other, for both directions.
+void BandFeatures::computeGradient(KernelName derivative, float* out) {
+  filterPadded(kSmooth, derivative, scratchRow(0));
+  filterPadded(derivative, kSmooth, scratchRow(1));
+  magnitude(scratchRow(0), scratchRow(1), static_cast<int>(width_), out);
 }
 
 }  // namespace pb::flip

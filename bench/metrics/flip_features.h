@@ -38,11 +38,11 @@ class BandFeatures {
 
   void filterColumns(int y);
   void extendBorders();
-  void filterColors(const Row3& out);
+  void computeColors(const FeatureRow& out);
   void filterPadded(KernelName source, KernelName kernel, float* out);
-  void detectFeatures(const FeatureRow& out);
+  void computeGradient(KernelName derivative, float* out);
   template <class RowAt>
-  void addFiltered(const Kernel& kernel, RowAt rowAt, float* out);
+  void filter(const Kernel& kernel, RowAt rowAt, float* out);
 
   const Kernels& kernels_;
   std::size_t width_, padding_, paddedWidth_;
@@ -50,7 +50,7 @@ class BandFeatures {
   int firstStoredRow_, endStoredRow_;
   std::vector<float> linear_, opponent_;  // stored rows, each as three planar channels
   std::vector<float> padded_;             // one row per kernel: filtered along columns, edge pixels repeated
-  std::vector<float> scratch_;            // three rows
+  std::vector<float> scratch_;            // four rows
   std::vector<TapPair<float>> taps_;
 };
 

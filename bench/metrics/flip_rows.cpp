@@ -85,14 +85,14 @@ PB_VECTOR_CLONES void reinhardToOpponent(const ConstRow3& rgb, float gain, int w
   }
 }
 
-PB_VECTOR_CLONES void opponentToLab(const ConstRow3& opponent, int width, const FeatureRow& out) {
-  const ConstRow3 in = opponent;
+PB_VECTOR_CLONES void opponentToLab(const ConstRow4& filtered, int width, const FeatureRow& out) {
+  const ConstRow4 in = filtered;
   float* const lightness = out.lightness;
   float* const a = out.a;
   float* const b = out.b;
 #pragma GCC ivdep
   for (int x = 0; x < width; ++x) {
-    const Triple rgb = linearFromOpponent({in[0][x], in[1][x], in[2][x]});
+    const Triple rgb = linearFromOpponent({in[0][x], in[1][x], in[2][x] + in[3][x]});
     const Triple lab = huntAdjusted(labFromLinear({clamp01(rgb.v0), clamp01(rgb.v1), clamp01(rgb.v2)}));
     lightness[x] = lab.v0;
     a[x] = lab.v1;

@@ -9,6 +9,7 @@ namespace pb::flip {
 
 using Row3 = std::array<float*, 3>;
 using ConstRow3 = std::array<const float*, 3>;
+using ConstRow4 = std::array<const float*, 4>;
 
 // What one image contributes to the error of each pixel: five rows in one block of memory.
 inline constexpr int kFeatureCount = 5;
@@ -35,8 +36,9 @@ void clampToOpponent(const ConstRow3& rgb, int width, const Row3& opponent);
 void curveToOpponent(const ConstRow3& rgb, float gain, const RationalCurve& curve, int width, const Row3& opponent);
 void reinhardToOpponent(const ConstRow3& rgb, float gain, int width, const Row3& opponent);
 
-// Filtered opponent values into the colour members of a feature row.
-void opponentToLab(const ConstRow3& opponent, int width, const FeatureRow& out);
+// Filtered opponent values y, cx and cz, the last as the sum of its two Gaussians' parts, into the colour members of a
+// feature row.
+void opponentToLab(const ConstRow4& filtered, int width, const FeatureRow& out);
 
 // sqrt(x^2 + y^2)
 void magnitude(const float* x, const float* y, int width, float* out);

@@ -97,23 +97,23 @@ class BandMoments {
 
  private:
   const double* filterRow(const DoublePlane& products, int row, std::vector<double>& sum) {
-    columnSums_.assign(static_cast<std::size_t>(width_), 0.0);
-    addWindow([&](int i) { return &products(0, row + kRadius + i); }, width_, columnSums_.data());
-    sum.assign(static_cast<std::size_t>(width_ - 2 * kRadius), 0.0);
-    addWindow([&](int i) { return &columnSums_[static_cast<std::size_t>(kRadius + i)]; }, width_ - 2 * kRadius,
+    columnSums_.resize(static_cast<std::size_t>(width_));
+    sumWindow([&](int i) { return &products(0, row + kRadius + i); }, width_, columnSums_.data());
+    sum.resize(static_cast<std::size_t>(width_ - 2 * kRadius));
+    sumWindow([&](int i) { return &columnSums_[static_cast<std::size_t>(kRadius + i)]; }, width_ - 2 * kRadius,
               sum.data());
     return sum.data();
   }
 
   template <class RowAt>
-  static void addWindow(RowAt rowAt, int width, double* out) {
+  static void sumWindow(RowAt rowAt, int width, double* out) {
     static const std::array<double, kRadius + 1> weights = windowWeights();
     std::array<TapPair<double>, kRadius + 1> taps{};
     for (int i = 0; i <= kRadius; ++i) {
       const auto index = static_cast<std::size_t>(i);
       taps[index] = {rowAt(-i), rowAt(i), weights[index]};
     }
-    addEvenTaps(taps, width, out);
+    sumEvenTaps(taps, width, out);
   }
 
   int width_, firstRow_;

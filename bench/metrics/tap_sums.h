@@ -13,14 +13,14 @@ struct TapPair {
   T weight;
 };
 
-// out[x] += sum over taps of weight * (before[x] + after[x]), in the order of the taps.
-void addEvenTaps(std::span<const TapPair<float>> taps, int width, float* out);
-void addEvenTaps(std::span<const TapPair<double>> taps, int width, double* out);
+// out[x] = sum over taps of weight * (before[x] + after[x]), in the order of the taps, of which there is at least one.
+void sumEvenTaps(std::span<const TapPair<float>> taps, int width, float* out);
+void sumEvenTaps(std::span<const TapPair<double>> taps, int width, double* out);
 
-// out[x] += sum over taps of weight * (before[x] - after[x])
-void addOddTaps(std::span<const TapPair<float>> taps, int width, float* out);
+// out[x] = sum over taps of weight * (before[x] - after[x])
+void sumOddTaps(std::span<const TapPair<float>> taps, int width, float* out);
 
-// out[x] += sum over taps of weight * (before[x] + after[x] - 2 centre[x])
-void addCurvatureTaps(std::span<const TapPair<float>> taps, const float* centre, int width, float* out);
+// out[x] = sum over taps of weight * (before[x] + after[x] - 2 centre[x])
+void sumCurvatureTaps(std::span<const TapPair<float>> taps, const float* centre, int width, float* out);
 
 }  // namespace pb
