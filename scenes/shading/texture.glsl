@@ -35,12 +35,15 @@ PB_FUNC ivec2 nearestTexel(vec2 uv, ivec2 size, vec4 settings) {
   return ivec2(wrapTexel(p.x, size.x, settings.x), wrapTexel(p.y, size.y, settings.y));
 }
 
+// Of a level from the size of level 0: llvmpipe's textureSize() takes one invocation's level for all that run side by side.
+PB_FUNC ivec2 levelSize(sampler2D image, int level) { return max(textureSize(image, 0) >> level, ivec2(1)); }
+
 PB_FUNC vec4 sampleNearest(sampler2D image, vec2 uv, int level, vec4 settings) {
-  return texelFetch(image, nearestTexel(uv, textureSize(image, level), settings), level);
+  return texelFetch(image, nearestTexel(uv, levelSize(image, level), settings), level);
 }
 
 PB_FUNC vec4 sampleBilinear(sampler2D image, vec2 uv, int level, vec4 settings) {
-  ivec2 size = textureSize(image, level);
+  ivec2 size = levelSize(image, level);
   vec2 p = wrapCoordinates(uv, settings) * vec2(size) - vec2(0.5f);
   vec2 corner = floor(p);
   vec2 f = p - corner;
