@@ -41,10 +41,12 @@ std::optional<Branch> chooseBranch(const shading::Surface& surface, const glm::v
   return Branch{refracted, weights.refraction / (1.0f - probability)};
 }
 
-// Russian roulette: false ends the path, else `throughput` makes up for the paths that ended.
-bool survives(int specularHits, glm::vec3& throughput, Sampler& sampler) {
+// Russian roulette: false ends the path, else `throughput` makes up for the paths that ended. Surviving with the last
+// hit's own weight keeps the throughput of survivors what it was when roulette began: a small part of the pixel, so
+// that the few survivors don't stand out.
+bool survives(int specularHits, const glm::vec3& lastWeight, glm::vec3& throughput, Sampler& sampler) {
   if (specularHits <= kRouletteFreeHits) return true;
-  const float probability = std::min(std::max({throughput.x, throughput.y, throughput.z}), kMaxSurvival);
+  const float probability = std::min(std::max({lastWeight.x, lastWeight.y, lastWeight.z}), kMaxSurvival);
   if (sampler.next() >= probability) return false;
   throughput /= probability;
   return true;
@@ -77,7 +79,7 @@ PathResult tracePath(const TracedScene& scene, const Ray& primary, float conePer
     if (!branch) return path;
     ++specularHits;
     throughput *= branch->weight;
-    if (!depth && !survives(specularHits, throughput, sampler)) return path;
+    if (!depth && !survives(specularHits, branch->weight, throughput, sampler)) return path;
     d = shading::safeNormalize(branch->direction);
     ray = {offsetOrigin(scene, *hit, surface.position, d), d};
   }
