@@ -15,11 +15,11 @@
 namespace pb {
 
 struct ReferenceSettings {
-  int samplesPerAxis = 4;    // S: S x S primary points on a regular grid in each pixel, box filter
-  int spp = 16;              // samples of the other dimensions per primary point, even, at least 2
-  std::optional<int> depth;  // K: specular hits before a path takes the environment, unoccluded; none: converged
+  int samplesPerAxis = 4;      // S: S x S primary points on a regular grid in each pixel, box filter
+  int spp = 16;                // samples of the other dimensions per primary point, even, at least 2
+  std::optional<int> depth{};  // K: specular hits before a path takes the environment, unoccluded; none: converged
   std::uint64_t seed = 1;
-  std::vector<int> hiddenInstances;  // left out of the scene for every ray
+  std::vector<int> hiddenInstances{};  // left out of the scene for every ray
 
   friend bool operator==(const ReferenceSettings&, const ReferenceSettings&) = default;
 };
