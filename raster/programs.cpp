@@ -20,12 +20,16 @@ std::string define(const std::string& name, const std::string& value = "") {
   return "#define " + name + " " + value + "\n";
 }
 
+std::string glslOf(const SamplerSettings& s) {
+  return fmt::format("vec4({:.1f}, {:.1f}, {:.1f}, {:.1f})", s.wrapU, s.wrapV, s.magFilter, s.minFilter);
+}
+
 std::string definesOf(const SurfaceVariant& variant) {
   std::string defines = define("SURFACE_KIND", fmt::format("{:.1f}", variant.kind));
   if (variant.attributes) defines += define("ATTRIBUTES");
-  if (variant.textures != 0 && variant.filter == TextureFilter::hardware) defines += define("TEXTURES_HARDWARE");
-  for (unsigned i = 0; i < kTextureDefines.size(); ++i)
-    if ((variant.textures >> i & 1U) != 0) defines += define(kTextureDefines[i]);
+  if (variant.filter == TextureFilter::hardware) defines += define("TEXTURES_HARDWARE");
+  for (std::size_t i = 0; i < kTextureDefines.size(); ++i)
+    if (variant.textures[i]) defines += define(kTextureDefines[i], glslOf(*variant.textures[i]));
   return defines;
 }
 
@@ -65,7 +69,7 @@ GLuint Programs::background(EnvironmentSource source) {
 GLuint Programs::ids(const SurfaceVariant& variant) {
   SurfaceVariant geometry;
   geometry.attributes = variant.attributes;
-  geometry.textures = variant.textures & 1U;
+  geometry.textures[0] = variant.textures[0];
   return find(shaders::kSceneVert, shaders::kIdsFrag, "ids", definesOf(geometry));
 }
 

@@ -1,9 +1,11 @@
 // The variants of the shaders that a device has compiled, each compiled when it is first asked for.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "raster/gl/objects.h"
@@ -12,9 +14,16 @@
 
 namespace pb {
 
-// Textures of a material, by bit in the order of the slots in MaterialConstants.
+// Textures that a material may have, in the order of the slots in MaterialConstants.
 inline constexpr int kMaterialTextures = 5;
-using TextureMask = unsigned;
+
+// See scenes/shading/texture.glsl. Part of the variant because a sampler that the compiler knows is filtered in a
+// fraction of the texel fetches: llvmpipe executes both sides of every branch.
+struct SamplerSettings {
+  float wrapU, wrapV, magFilter, minFilter;
+
+  friend auto operator<=>(const SamplerSettings&, const SamplerSettings&) = default;
+};
 
 // How the environment is read.
 enum class EnvironmentSource { gradient, faces, facesHardware };
@@ -23,7 +32,7 @@ EnvironmentSource environmentSource(const Environment& environment, TextureFilte
 // What the fragments of one draw need: the cheapest variant that does it is chosen.
 struct SurfaceVariant {
   float kind = shading::kSurfaceDiffuse;  // shading::kSurface*
-  TextureMask textures = 0;
+  std::array<std::optional<SamplerSettings>, kMaterialTextures> textures;
   bool attributes = false;  // vertices carry more than position and normal
   TextureFilter filter = TextureFilter::exact;
 

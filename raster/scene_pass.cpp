@@ -76,11 +76,9 @@ ScenePass::ScenePass(RasterDevice::Impl& device, TextureFilter filter, bool useP
 
 void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes) {
   snapshot_ = &snapshot;
-  if (!resources_ || resources_->scene() != snapshot.scene) {
-    resources_ = device_.resourcesOf(snapshot.scene);
-    draws_.clear();
-  }
-  if (!drawsFit(snapshot)) buildDraws(snapshot);
+  const bool isNewScene = !resources_ || resources_->scene() != snapshot.scene;
+  if (isNewScene) resources_ = device_.resourcesOf(snapshot.scene);
+  if (isNewScene || !drawsFit(snapshot)) buildDraws(snapshot);
   uploadInstances();
   uploadLights();
   uploadPasses(passes);

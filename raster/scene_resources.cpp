@@ -116,10 +116,15 @@ SurfaceVariant SceneResources::variantOf(int material, const Mesh& mesh, Texture
   SurfaceVariant variant;
   variant.kind = m.constants.kind.x;
   variant.filter = filter;
-  const std::array<int, kMaterialTextures> textures = texturesOf(m);
-  for (unsigned i = 0; i < textures.size(); ++i)
-    if (textures[i] >= 0) variant.textures |= 1U << i;
-  variant.attributes = variant.textures != 0 || !mesh.colors.empty();
+  variant.attributes = !mesh.colors.empty();
+  const auto textures = texturesOf(m);
+  const auto slots = slotsOf(m);
+  for (std::size_t i = 0; i < textures.size(); ++i) {
+    if (textures[i] < 0) continue;
+    const glm::vec4& s = slots[i]->sampler_;
+    variant.textures[i] = SamplerSettings{s.x, s.y, s.z, s.w};
+    variant.attributes = true;
+  }
   return variant;
 }
 

@@ -13,6 +13,6 @@ void main() {
 #ifdef BASE_COLOR_TEXTURE
   TextureSlot slot = material.baseColorSlot;
   float lod = slotLod(baseColorTexture, slot, makeFragment());
-  id.z = uint(nearestTexelId(baseColorTexture, slotCoordinates(slot), lod, slot.sampler_));
+  id.z = uint(nearestTexelId(baseColorTexture, slotCoordinates(slot), lod, BASE_COLOR_TEXTURE));
 #endif
 }

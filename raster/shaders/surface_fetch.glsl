@@ -1,7 +1,8 @@
 // The surface at a fragment with its textures read: the twin of pb::readSurface() in scenes/snapshot.h.
 //
-// Variants by defines: ATTRIBUTES if vertices carry more than position and normal, *_TEXTURE for each texture that the
-// material has, TEXTURES_HARDWARE to filter them by the driver's samplers instead of by scenes/shading/texture.glsl.
+// Variants by defines: ATTRIBUTES if vertices carry more than position and normal; for each texture that the material has
+// *_TEXTURE, whose value is the sampler's settings; TEXTURES_HARDWARE to filter by the driver's samplers instead of by
+// scenes/shading/texture.glsl.
 
 layout(location = 0) in vec3 worldPosition;
 layout(location = 1) in vec3 worldNormal;
@@ -56,11 +57,11 @@ vec2 slotCoordinates(TextureSlot slot) {
   return textureCoordinates(slot.matrix, slot.offset, vec2(uv.x, uv.y), vec2(uv.z, uv.w));
 }
 
-vec4 sampleSlot(sampler2D image, TextureSlot slot, Fragment f) {
+vec4 sampleSlot(sampler2D image, TextureSlot slot, vec4 settings, Fragment f) {
 #ifdef TEXTURES_HARDWARE
   return texture(image, slotCoordinates(slot));
 #else
-  return sampleTexture(image, slotCoordinates(slot), slotLod(image, slot, f), slot.sampler_);
+  return sampleTexture(image, slotCoordinates(slot), slotLod(image, slot, f), settings);
 #endif
 }
 #endif
@@ -76,21 +77,21 @@ Surface readSurface(Fragment f) {
   vertexColor = color;
 #endif
 #ifdef NORMAL_TEXTURE
-  vec4 normalTexel = sampleSlot(normalTexture, material.normalSlot, f);
+  vec4 normalTexel = sampleSlot(normalTexture, material.normalSlot, NORMAL_TEXTURE, f);
   vec4 tangent = vec4(safeNormalize(vec3(worldTangent)), worldTangent.w);
   if (tangent.w != 0.0f) normal = mappedNormal(f.normal, tangent, normalTexel, material.emission.w);
 #endif
 #ifdef BASE_COLOR_TEXTURE
-  baseColorTexel = sampleSlot(baseColorTexture, material.baseColorSlot, f);
+  baseColorTexel = sampleSlot(baseColorTexture, material.baseColorSlot, BASE_COLOR_TEXTURE, f);
 #endif
 #ifdef METALLIC_ROUGHNESS_TEXTURE
-  metallicRoughnessTexel = sampleSlot(metallicRoughnessTexture, material.metallicRoughnessSlot, f);
+  metallicRoughnessTexel = sampleSlot(metallicRoughnessTexture, material.metallicRoughnessSlot, METALLIC_ROUGHNESS_TEXTURE, f);
 #endif
 #ifdef EMISSION_TEXTURE
-  emissionTexel = sampleSlot(emissionTexture, material.emissionSlot, f);
+  emissionTexel = sampleSlot(emissionTexture, material.emissionSlot, EMISSION_TEXTURE, f);
 #endif
 #ifdef OCCLUSION_TEXTURE
-  occlusionTexel = sampleSlot(occlusionTexture, material.occlusionSlot, f);
+  occlusionTexel = sampleSlot(occlusionTexture, material.occlusionSlot, OCCLUSION_TEXTURE, f);
 #endif
   return makeSurface(material, worldPosition, normal, vertexColor, baseColorTexel, metallicRoughnessTexel,
                      emissionTexel, occlusionTexel);

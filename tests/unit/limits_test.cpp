@@ -1,0 +1,80 @@
+// What doesn't fit the device is refused with the numbers in the message.
+#include "raster/limits.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "raster/gpu_structs.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+constexpr DeviceLimits kDevice = {
+    .cubeMapSizePx = 1024, .arrayLayers = 60, .imageSizePx = 4096, .textureUnits = 16, .bytes = 64 << 20};
+
+template <class Function>
+std::string messageOf(const Function& function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Failure::input);
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+Technique withResolution(int resolution) {
+  Technique technique;
+  technique.resolution = resolution;
+  return technique;
+}
+
+TEST(Limits, AcceptWhatFitsExactly) {
+  EXPECT_NO_THROW(checkImageFits(kDevice, 2048, 1, 2));
+  EXPECT_NO_THROW(checkProbesFit(kDevice, withResolution(1024), 1, 64, 64, 1));
+  EXPECT_NO_THROW(checkProbesFit(kDevice, withResolution(8), 10, 64, 64, 1));
+}
+
+TEST(Limits, RefuseACubeMapThatIsTooLarge) {
+  EXPECT_THAT(messageOf([] { checkProbesFit(kDevice, withResolution(2048), 1, 64, 64, 1); }),
+              testing::AllOf(testing::HasSubstr("1024"), testing::HasSubstr("2048")));
+}
+
+TEST(Limits, RefuseTooManyProbes) {
+  EXPECT_THAT(messageOf([] { checkProbesFit(kDevice, withResolution(8), 11, 64, 64, 1); }),
+              testing::AllOf(testing::HasSubstr("60"), testing::HasSubstr("66")));
+}
+
+TEST(Limits, RefuseProbesThatExceedTheMemory) {
+  // 10 probes: 6 * 10 * 512^2 * 8 bytes = 120 MiB, and 1 MiB of depth.
+  EXPECT_THAT(messageOf([] { checkProbesFit(kDevice, withResolution(512), 10, 1, 1, 1); }),
+              testing::AllOf(testing::HasSubstr("121 MiB"), testing::HasSubstr("64 MiB")));
+}
+
+TEST(Limits, RefuseAnImageThatIsTooLargeOrEmpty) {
+  EXPECT_THAT(messageOf([] { checkImageFits(kDevice, 2049, 1, 2); }),
+              testing::AllOf(testing::HasSubstr("4096"), testing::HasSubstr("4098")));
+  EXPECT_THAT(messageOf([] { checkImageFits(kDevice, 0, 1, 1); }), testing::HasSubstr("0x1"));
+  EXPECT_THAT(messageOf([] { checkImageFits(kDevice, 2048, 2048, 1); }), testing::HasSubstr("80 MiB"));
+}
+
+TEST(Limits, RefuseADeviceWithTooFewTextureUnits) {
+  DeviceLimits poor = kDevice;
+  poor.textureUnits = gpu::kTextureUnits;
+  EXPECT_NO_THROW(checkImageFits(poor, 8, 8, 1));
+  --poor.textureUnits;
+  EXPECT_THAT(messageOf([&] { checkImageFits(poor, 8, 8, 1); }), testing::HasSubstr("texture units"));
+}
+
+TEST(ProbeBytes, CountBothBuffersOfSimultaneousBounces) {
+  Technique technique = withResolution(16);
+  EXPECT_EQ(probeBytes(technique, 3), 3 * 6 * 16 * 16 * 8);
+  technique.bounceOrder = BounceOrder::simultaneous;
+  EXPECT_EQ(probeBytes(technique, 3), 2 * 3 * 6 * 16 * 16 * 8);
+  technique.probes = ProbeUse::environmentOnly;
+  EXPECT_EQ(probeBytes(technique, 3), 0);
+}
+
+}  // namespace
+}  // namespace pb
