@@ -47,16 +47,15 @@ void requireVersion(const Json& document, const std::string& place, const Docume
                     format.version);
 }
 
-// Baselines share definitions with results by reference to the other file.
-const SortedJson* fetchSchema(const std::string& uri) {
-  if (!uri.ends_with("results.schema.json")) return nullptr;
-  return new SortedJson(SortedJson::parse(schemas::kResults));
-}
-
-void readSchema(std::string_view text, valijson::Schema& schema) {
-  const SortedJson document = SortedJson::parse(text);
-  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-      .populateSchema(Adapter(document), schema, fetchSchema, [](const SortedJson* fetched) { delete fetched; });
+// valijson's cache confuses the definitions of several documents, so those that are referred to in results.schema.json
+// are moved into the one document that it sees.
+SortedJson bundled(std::string schema) {
+  constexpr std::string_view kOtherFile = "results.schema.json#";
+  for (std::size_t at; (at = schema.find(kOtherFile)) != std::string::npos;) schema.replace(at, kOtherFile.size(), "#");
+  SortedJson document = SortedJson::parse(schema);
+  const SortedJson shared = SortedJson::parse(schemas::kResults);
+  document["definitions"].update(shared.at("definitions"));
+  return document;
 }
 
 // valijson's context is "<root>", "[cells]", "[0]", ...
@@ -73,8 +72,9 @@ std::string abbreviated(std::string text) {
 }
 
 void requireSchema(const Json& document, const std::string& place, std::string_view schemaText) {
+  const SortedJson schemaDocument = bundled(std::string(schemaText));
   valijson::Schema schema;
-  readSchema(schemaText, schema);
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(schemaDocument), schema);
   const SortedJson sorted = document;
   valijson::Validator validator(valijson::Validator::kStrongTypes);
   valijson::ValidationResults errors;

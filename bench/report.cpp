@@ -25,6 +25,10 @@ constexpr char kMainMetric[] = "flip_hdr";
 
 const std::optional<CostResult>& costOf(const Sequence& sequence) { return sequence.front()->cost; }
 
+bool hasCost(const Section& section) {
+  return std::ranges::any_of(section.sequences, [](const Sequence& sequence) { return costOf(sequence).has_value(); });
+}
+
 std::string meanErrorText(const Sequence& sequence, Region region, const std::string& metric) {
   return formatSignificant(meanError(sequence, region, metric)) +
          (isClearOfFloor(sequence, region) ? "" : kNotClearMark);
@@ -79,15 +83,19 @@ Table tableOfAll(const Section& section, const std::vector<Quantity>& quantities
   return table;
 }
 
+Quantity errorQuantity(const std::string& title, Region region, const std::string& metric) {
+  return {{title}, [=](const Sequence& sequence) { return meanErrorText(sequence, region, metric); }};
+}
+
+Quantity worstQuantity(Region region, const std::string& metric) {
+  return {{"worst"}, [=](const Sequence& sequence) { return worstErrorText(sequence, region, metric); }};
+}
+
 void addErrors(std::vector<Quantity>& quantities, const Section& section, Region region) {
-  const std::string place = region == Region::mask ? "mask" : "whole";
-  for (const auto& [metric, title] : {std::pair{kMainMetric, "FLIP-HDR"}, std::pair{"relmse", "relMSE"}}) {
-    const std::string key = metric;
-    quantities.push_back({{fmt::format("{} {}", title, place)},
-                          [=](const Sequence& sequence) { return meanErrorText(sequence, region, key); }});
-    if (section.severalFrames)
-      quantities.push_back(
-          {{"worst"}, [=](const Sequence& sequence) { return worstErrorText(sequence, region, key); }});
+  const char* place = region == Region::mask ? "mask" : "whole";
+  for (const auto& [metric, name] : {std::pair{kMainMetric, "FLIP-HDR"}, std::pair{"relmse", "relMSE"}}) {
+    quantities.push_back(errorQuantity(fmt::format("{} {}", name, place), region, metric));
+    if (section.severalFrames) quantities.push_back(worstQuantity(region, metric));
   }
 }
 
@@ -208,7 +216,6 @@ Quantity mainCost() {
 }
 
 std::string questionsText(const Section& section) {
-  const bool hasCost = std::ranges::any_of(section.sequences, [](const Sequence& s) { return costOf(s).has_value(); });
   const Quantity error = mainError(section), cost = mainCost();
   std::string text;
   for (std::size_t i = 0; i < section.axes.size(); ++i) {
@@ -218,7 +225,7 @@ std::string questionsText(const Section& section) {
                           fixedText(question.fixed), toMarkdown(questionTable(section, question, quantity)));
     };
     add("Error", error);
-    if (hasCost) add("Cost", cost);
+    if (hasCost(section)) add("Cost", cost);
   }
   return text;
 }
@@ -241,17 +248,17 @@ std::string sectionText(const Section& section) {
   if (!section.fixed.empty()) text += fmt::format("; {}", fmt::join(section.fixed, ", "));
   text += "\n\n" + questionsText(section);
   text += "### All errors\n\n" + toMarkdown(errorTable(section)) + '\n';
-  text += "### All costs\n\n" + toMarkdown(costTable(section)) + '\n';
+  if (hasCost(section)) text += "### All costs\n\n" + toMarkdown(costTable(section)) + '\n';
   text += "### Work per frame\n\n" + toMarkdown(workTable(section)) + '\n';
   return text;
 }
 
 constexpr char kLegend[] =
-    "Errors are against the converged reference; mask: the pixels of reflective and refractive objects. "
-    "`~`: not clear of the reference's own noise, relMSE is less than 10 times the floor. "
-    "Costs are medians with their 95 % interval; `x plain` is relative to a frame of the same scene and size without "
-    "captures; one render is one view of the scene (a cube face or the final image), "
-    "face age counts frames since the capture.\n\n";
+    "Errors are against the reference; `mask` is the pixels of reflective and refractive objects. `~` marks cells that "
+    "are not clear of the reference's own noise (relMSE below 10 times its floor). Costs are medians with their 95 % "
+    "interval; `x plain` is relative to a frame of the same scene and size without captures. A render is one view of "
+    "the scene, a cube face or the final image; N probes, B bounce iterations. Face age counts frames since the "
+    "capture.\n\n";
 
 void appendAll(Table& table, const std::string& prefix, const auto& pairs) {
   for (const auto& [name, value] : pairs) table.rows.push_back({prefix + name, value});

@@ -50,13 +50,12 @@ FlipPooled flipFromJson(const Json& json) {
   return flip;
 }
 
-void ssimToJson(const std::optional<Ssim>& ssim, Json& json) {
-  json["ssim"] = json["ssim_channels"] = json["ssim_luma"] = nullptr;
-  if (!ssim) return;
-  json["ssim"] = encodeNumber(ssim->mean);
-  json["ssim_channels"] = Json::array();
-  for (const double channel : ssim->channels) json["ssim_channels"].push_back(encodeNumber(channel));
-  json["ssim_luma"] = encodeNumber(ssim->luma);
+void appendSsim(const std::optional<Ssim>& ssim, Json& json) {
+  json["ssim"] = ssim ? encodeNumber(ssim->mean) : nullptr;
+  Json& channels = json["ssim_channels"] = nullptr;
+  if (ssim)
+    for (const double channel : ssim->channels) channels.push_back(encodeNumber(channel));
+  json["ssim_luma"] = ssim ? encodeNumber(ssim->luma) : nullptr;
 }
 
 std::optional<Ssim> ssimFromJson(const Json& json) {
@@ -74,7 +73,7 @@ std::optional<Ssim> ssimFromJson(const Json& json) {
 Json metricsToJson(const Metrics& metrics) {
   Json json;
   for (const auto& field : kSums) json[field.key] = encodeNumber(metrics.sums.*field.member);
-  ssimToJson(metrics.ssim, json);
+  appendSsim(metrics.ssim, json);
   json["ms_ssim"] = metrics.msSsim ? encodeNumber(*metrics.msSsim) : nullptr;
   json["flip_ldr"] = flipToJson(metrics.flipLdr, metrics.ppd);
   json["flip_hdr"] = flipHdrToJson(metrics);

@@ -1,0 +1,170 @@
+#include "bench/tables.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bench/report.h"
+#include "bench/sections.h"
+#include "tests/unit/sample_results.h"
+
+namespace pb {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Table, IsAlignedMarkdown) {
+  const Table table{{{"axis", Align::left}, {"x"}}, {{"64", "0.5"}, {"every-frame", "12345"}}};
+  EXPECT_EQ(toMarkdown(table),
+            "| axis        |     x |\n"
+            "| ----------- | ----: |\n"
+            "| 64          |   0.5 |\n"
+            "| every-frame | 12345 |\n");
+}
+
+TEST(Table, CountsCodePointsAndEscapesBars) {
+  const Table table{{{"name", Align::left}}, {{"caf\xc3\xa9"}, {"a|b"}, {"two\nlines"}}};
+  EXPECT_EQ(toMarkdown(table),
+            "| name      |\n"
+            "| --------- |\n"
+            "| caf\xc3\xa9      |\n"
+            "| a\\|b      |\n"
+            "| two lines |\n");
+}
+
+TEST(FormatSignificant, KeepsThreeDigits) {
+  const std::pair<double, const char*> cases[] = {{0.0, "0"},
+                                                  {0.01234, "0.0123"},
+                                                  {0.5, "0.500"},
+                                                  {1.0, "1.00"},
+                                                  {-12.34, "-12.3"},
+                                                  {123.4, "123"},
+                                                  {12345.6, "12346"},
+                                                  {1234567.0, "1.23e+06"},
+                                                  {1.234e-5, "1.23e-05"},
+                                                  {0.0001234, "0.000123"},
+                                                  {std::numeric_limits<double>::quiet_NaN(), "-"},
+                                                  {std::numeric_limits<double>::infinity(), "inf"}};
+  for (const auto& [value, text] : cases) EXPECT_EQ(formatSignificant(value), text);
+}
+
+TEST(Sections, GroupScenesAndFramesInTheOrderOfTheRun) {
+  const Results results = samples::makeResults();
+  const std::vector<Section> sections = sectionsOf(results.cells);
+  ASSERT_EQ(sections.size(), 2u);
+  const Section& a = sections[0];
+  EXPECT_EQ(a.sequences.size(), 4u);
+  EXPECT_EQ(a.sequences[0].size(), 2u);
+  ASSERT_EQ(a.axes.size(), 2u);
+  EXPECT_THAT(a.axes[0].values, ElementsAre("64", "128"));
+  EXPECT_THAT(a.axes[1].values, ElementsAre("every-frame", "static"));
+  EXPECT_THAT(a.fixed, ElementsAre("bounces=1"));
+  EXPECT_EQ(a.region, Region::mask);
+  EXPECT_TRUE(a.severalFrames);
+  EXPECT_TRUE(sections[1].axes.empty());
+  EXPECT_EQ(sections[1].region, Region::whole);
+  EXPECT_FALSE(sections[1].severalFrames);
+}
+
+TEST(Sections, MeanAndWorstAreOverTheFrames) {
+  const Results results = samples::makeResults();
+  const Sequence sequence = sectionsOf(results.cells)[0].sequences[0];
+  // HDR-FLIP of the samples is 2 * 4 * error on the mask, errors 0.1 and 0.09.
+  EXPECT_DOUBLE_EQ(meanError(sequence, Region::mask, "flip_hdr"), 8 * 0.095);
+  EXPECT_DOUBLE_EQ(largestError(sequence, Region::mask, "flip_hdr"), 8 * 0.1);
+  EXPECT_EQ(meanCounter(sequence, "draws"), 40.0);
+  EXPECT_TRUE(std::isnan(meanCounter(sequence, "unknown")));
+  EXPECT_EQ(meanFaceAge(sequence), 1.25);
+}
+
+TEST(Sections, UndefinedErrors_AreLeftOutOfMeans) {
+  Results results = samples::makeResults();
+  results.cells[0].maskMetrics->flipHdr.reset();
+  const Sequence sequence = sectionsOf(results.cells)[0].sequences[0];
+  EXPECT_DOUBLE_EQ(meanError(sequence, Region::mask, "flip_hdr"), 8 * 0.09);
+  EXPECT_DOUBLE_EQ(largestError(sequence, Region::mask, "flip_hdr"), 8 * 0.09);
+}
+
+TEST(Sections, ErrorIsClearOfTheFloorFromTenTimesOn) {
+  CellResult cell = samples::makeCell("a", 0, "64", "static", 0.1);
+  cell.maskMetrics->sums.relmse = 1e-5;
+  for (const auto& [floor, clear] : {std::pair{0.9e-6, true}, std::pair{1.1e-6, false}}) {
+    cell.maskFloor = {{"relmse", floor}};
+    EXPECT_EQ(isClearOfFloor({&cell}, Region::mask), clear);
+  }
+  EXPECT_TRUE(isClearOfFloor({&cell}, Region::whole));
+  cell.maskFloor.clear();
+  EXPECT_TRUE(isClearOfFloor({&cell}, Region::mask));
+}
+
+TEST(Report, ShowsOneTableAQuestion) {
+  const std::string report = makeReport(samples::makeResults());
+  EXPECT_THAT(report, HasSubstr("## builtin:a, camera main\n\nframes 0 1; bounces=1\n"));
+  // Frames have errors 8 e and 8 * 0.9 e with e = 0.1 * 0.81^row: mean 7.6 e, worst 8 e.
+  EXPECT_THAT(report, HasSubstr("### Error versus resolution\n\n"
+                                "FLIP-HDR on the mask, mean over the frames (worst frame)\n\n"
+                                "| resolution | refresh=every-frame | refresh=static |\n"
+                                "| ---------- | ------------------: | -------------: |\n"
+                                "| 64         |       0.760 (0.800) |  0.616 (0.648) |\n"
+                                "| 128        |       0.499 (0.525) |  0.404 (0.425) |\n"));
+  EXPECT_THAT(report, HasSubstr("### Cost versus refresh\n\n"
+                                "frame time as a multiple of a plain frame\n\n"
+                                "| refresh     | resolution=64 | resolution=128 |\n"
+                                "| ----------- | ------------: | -------------: |\n"
+                                "| every-frame |          3.00 |           3.00 |\n"
+                                "| static      |          1.11 |           1.11 |\n"));
+}
+
+TEST(Report, FixesOtherAxesAtTheLargestNumberOrTheFirstValue) {
+  Results results;
+  for (const char* resolution : {"256", "1024", "64"})
+    for (const char* refresh : {"static", "every-frame"})
+      for (const char* bounces : {"1", "2"}) {
+        CellResult cell = samples::makeCell("a", 0, resolution, refresh, 0.1);
+        cell.technique[2].second = bounces;
+        results.cells.push_back(cell);
+      }
+  const std::string report = makeReport(results);
+  EXPECT_THAT(report, HasSubstr("### Error versus resolution\n\nFLIP-HDR on the mask, bounces=2\n"));
+  EXPECT_THAT(report, HasSubstr("### Error versus refresh\n\nFLIP-HDR on the mask, resolution=1024\n"));
+  EXPECT_THAT(report, HasSubstr("### Error versus bounces\n\nFLIP-HDR on the mask, refresh=static\n"));
+}
+
+TEST(Report, ShowsModelAndMeasuredRendersSideBySide) {
+  EXPECT_THAT(makeReport(samples::makeResults()), HasSubstr("6*N*B+1 = 13 |       13 |"));
+}
+
+TEST(Report, MarksErrorsThatAreNotClearOfTheFloor) {
+  Results results = samples::makeResults();
+  EXPECT_THAT(makeReport(results), Not(HasSubstr(" ~ ")));
+  results.cells[0].maskFloor = {{"relmse", 0.01}};
+  const std::string report = makeReport(results);
+  EXPECT_THAT(report, HasSubstr("| 64         |     0.760 ~ (0.800) |"));
+  EXPECT_THAT(report, HasSubstr("|       0.760 ~ |"));
+}
+
+TEST(Report, OfASceneWithoutMaskOrCost_LeavesThemOut) {
+  Results results = samples::makeResults();
+  results.cells.erase(results.cells.begin(), results.cells.begin() + 8);
+  const std::string report = makeReport(results);
+  EXPECT_THAT(report, HasSubstr("FLIP-HDR whole"));
+  EXPECT_THAT(report, Not(HasSubstr("FLIP-HDR mask")));
+  EXPECT_THAT(report, Not(HasSubstr("versus")));
+  EXPECT_THAT(report, Not(HasSubstr("All costs")));
+}
+
+TEST(Report, EndsWithTheCircumstances) {
+  const std::string report = makeReport(samples::makeResults());
+  const std::string end = report.substr(report.find("## Circumstances"));
+  for (const char* text :
+       {"0123abc", "feed", "2026-01-31T12:00:00Z", "18446744073709551615", "2 threads",
+        "llvmpipe (LLVM 15.0.6, 256 bits)", "4.5 Mesa 22.3.6", "640x360", "aaaa", "3.13.5", "passed"})
+    EXPECT_THAT(end, HasSubstr(text));
+}
+
+}  // namespace
+}  // namespace pb
