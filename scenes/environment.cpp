@@ -118,26 +118,13 @@ glm::vec4 resampledTexel(const ImageRgba& image, int face, int x, int y, int fac
   return {sum / static_cast<float>(samplesPerAxis * samplesPerAxis), 1.0f};
 }
 
-std::vector<ImageRgba> facesOfEquirectangular(const ImageRgba& image, int faceSize) {
-  // At most half an image texel between samples, so that none is missed where faces are coarser than the image.
-  const float texelRatio = static_cast<float>(image.width()) / (shading::kPi * static_cast<float>(faceSize));
-  const int samplesPerAxis = std::max(2, static_cast<int>(std::ceil(2.0f * texelRatio)));
-  std::vector<ImageRgba> faces(6, ImageRgba(faceSize, faceSize));
-  tbb::parallel_for(0, 6 * faceSize, [&](int row) {
-    const int face = row / faceSize, y = row % faceSize;
-    for (int x = 0; x < faceSize; ++x)
-      faces[static_cast<std::size_t>(face)](x, y) = resampledTexel(image, face, x, y, faceSize, samplesPerAxis);
-  });
-  return faces;
-}
-
 std::vector<ImageRgba> loadEquirectangular(const std::string& path, std::vector<std::string>& warnings) {
   const ImageRgba image = readRadiance(path, warnings);
   const int wanted = faceSizeFor(image.width());
   if (wanted > kMaxFaceSize)
     warnings.push_back(fmt::format("environment '{}' is averaged to cube faces of {} texels; its {} columns have more",
                                    path, kMaxFaceSize, image.width()));
-  return facesOfEquirectangular(image, std::min(wanted, kMaxFaceSize));
+  return cubeFacesOf(image, std::min(wanted, kMaxFaceSize));
 }
 
 std::vector<ImageRgba> loadSixFaces(const std::string& pattern, std::vector<std::string>& warnings) {
@@ -218,6 +205,19 @@ Environment loadEnvironment(const std::string& text, std::vector<std::string>& w
     throwInputError("environment wants sky, black, white, constant?r=..&g=..&b=.. or an image file, '{}' is none",
                     text);
   return makeCubeEnvironment(text, loadEquirectangular(text, warnings));
+}
+
+std::vector<ImageRgba> cubeFacesOf(const ImageRgba& image, int faceSize) {
+  // At most one image texel between samples: bilinear lookups reach one texel to each side, so that none is missed.
+  const float texelRatio = static_cast<float>(image.width()) / (shading::kPi * static_cast<float>(faceSize));
+  const int samplesPerAxis = static_cast<int>(std::ceil(texelRatio));
+  std::vector<ImageRgba> faces(6, ImageRgba(faceSize, faceSize));
+  tbb::parallel_for(0, 6 * faceSize, [&](int row) {
+    const int face = row / faceSize, y = row % faceSize;
+    for (int x = 0; x < faceSize; ++x)
+      faces[static_cast<std::size_t>(face)](x, y) = resampledTexel(image, face, x, y, faceSize, samplesPerAxis);
+  });
+  return faces;
 }
 
 shading::Ambient projectAmbient(const std::vector<ImageRgba>& faces) {

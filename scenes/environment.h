@@ -16,6 +16,9 @@ Environment makeProceduralSky();
 // Ambient light computed from the gradient by quadrature.
 Environment makeGradientEnvironment(const shading::Sky& sky);
 
+// An equirectangular image resampled to six faces in GL order, averaging where these are coarser.
+std::vector<ImageRgba> cubeFacesOf(const ImageRgba& equirectangular, int faceSize);
+
 // Six square faces of one size in GL order, with the ambient light projected from them.
 Environment makeCubeEnvironment(std::string name, std::vector<ImageRgba> faces);
 

@@ -101,6 +101,7 @@ class ImageReader {
     const OIIO::ImageSpec& s = spec();
     std::vector<float> data(pixelCount(s.width, s.height) * static_cast<std::size_t>(channels));
     if (!input_->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, data.data()) || input_->has_error()) fail();
+    roundToStoredSteps(data);
     const bool whole = s.x == s.full_x && s.y == s.full_y && s.width == s.full_width && s.height == s.full_height;
     return whole ? data : placeInDisplayWindow(data, channels);
   }
@@ -123,6 +124,14 @@ class ImageReader {
         throwInputError("images of 1 to {} pixels are read, '{}' declares {} x {}", kMaxPixels, name_, width, height);
     if (s.nchannels < 1 || s.nchannels > kMaxChannels)
       throwInputError("images of 1 to {} channels are read, '{}' has {}", kMaxChannels, name_, s.nchannels);
+  }
+
+  // Integers were multiplied by the float 1/255, which is not always the float nearest to i/255.
+  void roundToStoredSteps(std::vector<float>& data) const {
+    const OIIO::TypeDesc type = spec().format;
+    if (type != OIIO::TypeDesc::UINT8 && type != OIIO::TypeDesc::UINT16) return;
+    const float largest = type == OIIO::TypeDesc::UINT8 ? 255.0f : 65535.0f;
+    for (float& value : data) value = std::round(value * largest) / largest;
   }
 
   std::vector<float> placeInDisplayWindow(const std::vector<float>& data, int channels) const {
