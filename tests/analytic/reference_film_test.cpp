@@ -82,12 +82,12 @@ double meanSquare(const Image& a, const Image& b) {
 // Halves that were not independent, or whose mean were wrong, would make mean((A-B)^2)/4 miss the mean's true error.
 TEST(Halves, OfStochasticPaths_EstimateTheNoiseOfTheMean) {
   const ReferenceImage image = renderBall(makeGlass(1.5f), {.samplesPerAxis = 1, .spp = 32});
-  const Image truth = renderBall(makeGlass(1.5f), {.samplesPerAxis = 1, .spp = 2048, .seed = 77}).mean();
+  const Image truth = renderBall(makeGlass(1.5f), {.samplesPerAxis = 1, .spp = 1024, .seed = 77}).mean();
   const double floor = meanSquare(image.half(0), image.half(1)) / 4.0;
   const double error = meanSquare(image.mean(), truth);
   ASSERT_GT(floor, 0.0);
   // About 600 noisy pixels of unequal variance: each side has a relative deviation of some 10 %. The truth's own noise
-  // adds 32 / 2048.
+  // adds 32 / 1024.
   EXPECT_NEAR(error / floor, 1.0, 0.35);
 }
 
