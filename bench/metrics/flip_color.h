@@ -65,14 +65,21 @@ inline float clamp01(float v) {
   return atLeast0 < 1.0f ? atLeast0 : 1.0f;
 }
 
-// (y, cx, cz) of linear RGB and back.
+// (y, cx, cz) of linear RGB.
 inline Triple opponentFromLinear(const Triple& rgb) {
   const Triple xyz = multiply(kXyzFromLinearRgb, rgb);
   return {xyz.v1, xyz.v0 - xyz.v1, xyz.v1 - xyz.v2};
 }
 
-inline Triple linearFromOpponent(const Triple& opponent) {
-  return multiply(kLinearRgbFromXyz, {opponent.v0 + opponent.v1, opponent.v0, opponent.v0 - opponent.v2});
+// XYZ of the colour whose linear RGB is clamped to [0,1]. What clamping changes is added to XYZ, so that colours inside
+// of the gamut keep their precision: the chroma of CIELAB magnifies the rounding of a way through RGB and back.
+inline Triple clampedXyzFromOpponent(const Triple& opponent) {
+  const Triple xyz{opponent.v0 + opponent.v1, opponent.v0, opponent.v0 - opponent.v2};
+  const Triple rgb = multiply(kLinearRgbFromXyz, xyz);
+  const Triple change =
+      multiply(kXyzFromLinearRgb, {clamp01(rgb.v0) - rgb.v0, clamp01(rgb.v1) - rgb.v1, clamp01(rgb.v2) - rgb.v2});
+  const auto positive = [](float v) { return v > 0.0f ? v : 0.0f; };
+  return {positive(xyz.v0 + change.v0), positive(xyz.v1 + change.v1), positive(xyz.v2 + change.v2)};
 }
 
 // The compression of CIELAB, for v >= 0.
@@ -83,9 +90,8 @@ inline float labCompress(float v) {
   return v > d * d * d ? root : line;
 }
 
-// CIELAB (L, a, b) of linear RGB in [0,1].
-inline Triple labFromLinear(const Triple& rgb) {
-  const Triple xyz = multiply(kXyzFromLinearRgb, rgb);
+// CIELAB (L, a, b) of XYZ, which is not negative.
+inline Triple labFromXyz(const Triple& xyz) {
   const float fx = labCompress(xyz.v0), fy = labCompress(xyz.v1), fz = labCompress(xyz.v2);
   return {116.0f * fy - 16.0f, 500.0f * (fx - fy), 200.0f * (fy - fz)};
 }

@@ -92,8 +92,7 @@ PB_VECTOR_CLONES void opponentToLab(const ConstRow4& filtered, int width, const 
   float* const b = out.b;
 #pragma GCC ivdep
   for (int x = 0; x < width; ++x) {
-    const Triple rgb = linearFromOpponent({in[0][x], in[1][x], in[2][x] + in[3][x]});
-    const Triple lab = huntAdjusted(labFromLinear({clamp01(rgb.v0), clamp01(rgb.v1), clamp01(rgb.v2)}));
+    const Triple lab = huntAdjusted(labFromXyz(clampedXyzFromOpponent({in[0][x], in[1][x], in[2][x] + in[3][x]})));
     lightness[x] = lab.v0;
     a[x] = lab.v1;
     b[x] = lab.v2;

@@ -50,8 +50,8 @@ enum class ToneMapper { aces, hable, reinhard };
 struct FlipSettings {
   double ppd = 67.02064327658225;  // pixels per degree, 1 to 1000: 0.7 m from a 0.7 m wide 3840 pixel monitor
   ToneMapper toneMapper = ToneMapper::aces;
-  std::optional<double> startExposure, stopExposure;  // HDR, stops, -120 to 120; otherwise from the reference
-  std::optional<int> numExposures;                    // HDR, 1 to 1000; otherwise max(2, ceil(stop - start))
+  std::optional<double> startExposure{}, stopExposure{};  // HDR, stops, -120 to 120; otherwise from the reference
+  std::optional<int> numExposures{};                      // HDR, 1 to 1000; otherwise max(2, ceil(stop - start))
 };
 
 struct FlipResult {

@@ -1,6 +1,8 @@
 // Pictures for the tests of the metrics: made here, or read from the pairs with published values.
 #pragma once
 
+#include <gmock/gmock.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +11,7 @@
 #include <string>
 
 #include "bench/metrics/metrics.h"
+#include "scenes/error.h"
 #include "scenes/image.h"
 #include "scenes/image_io.h"
 
@@ -39,6 +42,13 @@ inline Image noiseImage(int width, int height, std::uint32_t seed, float scale =
     pixel.z = next();
   }
   return image;
+}
+
+// Matches a call that throws an input Error whose message matches.
+template <class Matcher>
+auto throwsInputError(Matcher message) {
+  return testing::Throws<Error>(
+      testing::AllOf(testing::Property(&Error::kind, Failure::input), testing::Property(&Error::what, message)));
 }
 
 inline Image scaled(Image image, float factor) {
