@@ -11,6 +11,7 @@
 
 #include "scenes/environment.h"
 #include "scenes/error.h"
+#include "scenes/files.h"
 #include "scenes/gltf/accessor.h"
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/extras.h"
@@ -302,16 +303,15 @@ class SceneBuilder {
 }  // namespace
 
 Scene loadGltf(const std::string& path, const std::optional<Environment>& environment) {
+  const std::string bytes = readFile(path);
   try {
-    const gltf::Document document = gltf::readDocument(path);
+    const gltf::Document document = gltf::parseDocument(bytes, std::filesystem::absolute(path).parent_path().string());
     Scene scene = SceneBuilder(document).load(environment);
     scene.name = std::filesystem::path(path).stem().string();
     finishScene(scene);
     return scene;
   } catch (const Error& e) {
-    const std::string message = e.what();
-    // Errors of the file system name the path already.
-    throw Error(e.kind(), message.find(path) == std::string::npos ? path + ": " + message : message);
+    throw Error(e.kind(), path + ": " + e.what());
   } catch (const std::bad_alloc&) {
     throwInputError("{}: the scene doesn't fit into memory", path);
   } catch (const std::exception& e) {

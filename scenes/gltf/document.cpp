@@ -62,10 +62,11 @@ Container splitGlb(std::string_view bytes) {
   return container;
 }
 
-// The parser's messages start with its own error code in brackets.
-std::string withoutErrorCode(const std::string& message) {
-  const std::size_t end = message.find("] ");
-  return end == std::string::npos ? message : message.substr(end + 2);
+// Without the parser's own error code in brackets before the message, and the file's bytes after it.
+std::string essenceOf(const std::string& message) {
+  const std::size_t codeEnd = message.find("] ");
+  const std::size_t start = codeEnd == std::string::npos ? 0 : codeEnd + 2;
+  return message.substr(start, message.find("; last read") - start);
 }
 
 json parseJson(std::string_view text) {
@@ -76,7 +77,7 @@ json parseJson(std::string_view text) {
   try {
     return json::parse(text, refuseDeepNesting);
   } catch (const json::exception& e) {
-    throwInputError("a glTF file is wanted, its JSON can't be parsed: {}", withoutErrorCode(e.what()));
+    throwInputError("a glTF file is wanted, its JSON can't be parsed: {}", essenceOf(e.what()));
   }
 }
 
@@ -165,17 +166,16 @@ std::string dataUriBytes(const std::string& uri, int image) {
 
 }  // namespace
 
-Document readDocument(const std::string& path) {
-  const std::string file = readFile(path);
-  if (file.empty()) throwInputError("the file is empty");
-  const bool isGlb = file.starts_with(kGlbMagic);
-  const Container container = isGlb ? splitGlb(file) : Container{file, {}};
+Document parseDocument(const std::string& bytes, const std::string& folder) {
+  if (bytes.empty()) throwInputError("the file is empty");
+  const bool isGlb = bytes.starts_with(kGlbMagic);
+  const Container container = isGlb ? splitGlb(bytes) : Container{bytes, {}};
   Document document;
   document.json = parseJson(container.jsonText);
   checkRequirements(document.json);
   validate(document.json);
   checkBuffersHaveData(document.json, container.binary);
-  document.folder = std::filesystem::absolute(path).parent_path().string();
+  document.folder = folder;
   document.model = parseModel(packGlb(withoutImagesAndDracoIndices(document.json), container.binary), document.folder);
   checkBufferViews(document.model);
   return document;

@@ -18,8 +18,9 @@ struct Document {
   std::string folder;     // of the file, for the paths of images
 };
 
-// Reads .gltf or .glb, told by content. Throws an input Error whose place is inside the file: the caller adds its name.
-Document readDocument(const std::string& path);
+// Parses .gltf or .glb, told by content; external files are found in `folder`, an absolute path. Throws an input Error
+// whose place is inside the file: the caller adds its name.
+Document parseDocument(const std::string& bytes, const std::string& folder);
 
 // Bytes of a checked buffer view, inside its buffer.
 std::span<const std::byte> bytesOf(const Document& document, int bufferView);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -69,7 +68,6 @@ constexpr const char* kPbr = "materials/*/pbrMetallicRoughness";
 
 // glTF 2.0, section 5, as far as the loader reads it. Offsets and lengths are compared with the data where it is read.
 constexpr std::array kRules = {
-    indexRule("", "scene", "scenes"),
     sizeRule("buffers/*", "byteLength", true, 1),
     typeRule("buffers/*", "uri", Type::text),
     indexRule("bufferViews/*", "buffer", "buffers", true),
@@ -109,6 +107,7 @@ constexpr std::array kRules = {
     numbersRule("nodes/*", "scale", 3),
     indexRule("nodes/*/extensions/KHR_lights_punctual", "light", kLights, true),
     indicesRule("scenes/*", "nodes", "nodes"),
+    indexRule("", "scene", "scenes"),
     typeRule("materials/*", "name", Type::text),
     typeRule("materials/*", "alphaMode", Type::text),
     typeRule("materials/*", "doubleSided", Type::boolean),
@@ -237,9 +236,11 @@ void checkNumber(const Cursor& at, const Rule& rule) {
 }
 
 void checkSize(const Cursor& at, const Rule& rule) {
-  constexpr std::int64_t kLargest = std::int64_t{1} << 40;
-  if (!at.value->is_number_integer() || *at.value < rule.minimum || *at.value > kLargest)
-    throwInputError("{} wants an integer from {}, got {}", at.path, rule.minimum, shown(*at.value));
+  constexpr double kLargest = 1e12;
+  const bool fits =
+      at.value->is_number_integer() && at.value->get<double>() >= rule.minimum && at.value->get<double>() <= kLargest;
+  if (!fits)
+    throwInputError("{} wants an integer from {} to {}, got {}", at.path, rule.minimum, kLargest, shown(*at.value));
 }
 
 void checkValue(const Cursor& owner, const Cursor& at, const Rule& rule, const json& document) {
