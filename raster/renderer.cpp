@@ -1,6 +1,7 @@
 #include "raster/renderer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <optional>
 
@@ -16,7 +17,7 @@ namespace pb {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
-constexpr float kLargestFloat = std::numeric_limits<float>::max();
+constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 // Passes of a frame by number: the final image, then the faces of the probes.
 constexpr std::size_t kFinalPass = 0;
@@ -127,6 +128,7 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sn
 }
 
 void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
+  assert(history.frame == 0 || history.lastCapturedFrame.size() == snapshot.probes.size());
   if (!isDynamic() || probes || snapshot.probes.empty()) return;
   const int count = static_cast<int>(snapshot.probes.size());
   checkProbesFit(device.limits, technique, count, widthPx, heightPx, samplesPerAxis);
@@ -135,7 +137,7 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
 
 std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {
   std::vector<gpu::PassConstants> passes = {
-      passConstants(snapshot, snapshot.camera, image->widthSamples(), image->heightSamples(), kLargestFloat)};
+      passConstants(snapshot, snapshot.camera, image->widthSamples(), image->heightSamples(), kUnlimited)};
   if (!probes) return passes;
   for (const ProbeFace& f : allFaces(snapshot)) {
     const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];

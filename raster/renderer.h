@@ -67,7 +67,8 @@ class RasterDevice {
   std::unique_ptr<Impl> impl_;
 };
 
-// A technique rendering a sequence of frames of one scene. Keeps its cube maps between frames.
+// A technique rendering a sequence of frames of one scene. Keeps its cube maps between frames. The device must outlive
+// it.
 class RasterSequence {
  public:
   // Throws an input Error when the probes would not fit the device (size of a cube map, memory).

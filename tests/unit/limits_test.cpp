@@ -5,13 +5,18 @@
 #include <gtest/gtest.h>
 
 #include "raster/gpu_structs.h"
+#include "scenes/environment.h"
 #include "scenes/error.h"
 
 namespace pb {
 namespace {
 
-constexpr DeviceLimits kDevice = {
-    .cubeMapSizePx = 1024, .arrayLayers = 60, .imageSizePx = 4096, .textureUnits = 16, .bytes = 64 << 20};
+constexpr DeviceLimits kDevice = {.cubeMapSizePx = 1024,
+                                  .arrayLayers = 60,
+                                  .textureSizePx = 8192,
+                                  .viewportPx = 4096,
+                                  .textureUnits = 16,
+                                  .bytes = 64 << 20};
 
 template <class Function>
 std::string messageOf(const Function& function) {
@@ -65,6 +70,24 @@ TEST(Limits, RefuseADeviceWithTooFewTextureUnits) {
   EXPECT_NO_THROW(checkImageFits(poor, 8, 8, 1));
   --poor.textureUnits;
   EXPECT_THAT(messageOf([&] { checkImageFits(poor, 8, 8, 1); }), testing::HasSubstr("texture units"));
+}
+
+TEST(Limits, RefuseTexturesThatAreTooLarge) {
+  Scene scene;
+  scene.environment = makeConstantEnvironment(glm::vec3(1.0f));
+  scene.environment.faces.assign(6, ImageRgba(8, 8));
+  scene.textures.push_back(makeTexture("strip", ImageRgba(8192, 1)));
+  EXPECT_NO_THROW(checkSceneFits(kDevice, scene));
+  // 64 MiB is 2^22 texels: 1 x 2048^2 with its levels is 4/3 of that.
+  scene.textures.push_back(makeTexture("large", ImageRgba(2048, 2048)));
+  EXPECT_THAT(messageOf([&] { checkSceneFits(kDevice, scene); }), testing::HasSubstr("85 MiB"));
+  scene.textures = {makeTexture("long", ImageRgba(8193, 1))};
+  EXPECT_THAT(messageOf([&] { checkSceneFits(kDevice, scene); }),
+              testing::AllOf(testing::HasSubstr("'long'"), testing::HasSubstr("8193x1"), testing::HasSubstr("8192")));
+  scene.textures.clear();
+  scene.environment.faces.assign(6, ImageRgba(1025, 1025));
+  EXPECT_THAT(messageOf([&] { checkSceneFits(kDevice, scene); }),
+              testing::AllOf(testing::HasSubstr("1024"), testing::HasSubstr("1025")));
 }
 
 TEST(ProbeBytes, CountBothBuffersOfSimultaneousBounces) {
