@@ -18,7 +18,7 @@ namespace {
 
 using Snapshots = std::vector<std::shared_ptr<const Snapshot>>;
 
-constexpr int kPlainFrames = 4;  // at least; a plain frame is short against the clock's disturbances
+constexpr std::size_t kPlainFrames = 8;  // a block's; enough to average single disturbances of the clock out
 
 double meanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -104,10 +104,9 @@ class Measurement {
   }
 
   double measurePlain() {
-    const std::size_t blocks = (kPlainFrames + snapshots_.size() - 2) / (snapshots_.size() - 1);
+    const std::size_t block = snapshots_.size() - 1;
     std::vector<double> frames;
-    for (std::size_t block = 0; block < blocks; ++block)
-      for (std::size_t i = 1; i < snapshots_.size(); ++i) frames.push_back(renderMs(plain_, *snapshots_[i]));
+    for (std::size_t i = 0; i < kPlainFrames; ++i) frames.push_back(renderMs(plain_, *snapshots_[1 + i % block]));
     return meanOf(frames);
   }
 

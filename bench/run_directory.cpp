@@ -17,7 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMarker = "run.json";
 constexpr const char* kJournal = "journal.jsonl";
-// What a run writes, and what it removes of an earlier one; nothing else in the folder is touched.
+// What a run (and, for report.csv, `probebench report -o`) writes, and what it removes of an earlier one; nothing else in
+// the folder is touched.
 constexpr const char* kFiles[] = {kJournal, "results.json", "results.csv", "benchmark.json", "report.md", "report.csv"};
 constexpr const char* kImages = "images";
 
@@ -110,7 +111,7 @@ void RunDirectory::finish(const Results& results, const std::string& benchmarkJs
   const auto path = [&](const char* name) { return (folder_ / name).string(); };
   if (!benchmarkJson.empty()) writeFileAtomically(path("benchmark.json"), benchmarkJson);
   writeFileAtomically(path("results.csv"), toCsv(results));
-  writeReport(results, folder_.string());
+  writeFileAtomically(path("report.md"), makeReport(results));
   writeFileAtomically(path("results.json"), toJson(results));
 }
 

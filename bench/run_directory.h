@@ -33,7 +33,7 @@ class RunDirectory {
   // Appends a finished cell to the journal. From any thread.
   void append(const CellResult& cell);
 
-  // Writes results.json, results.csv, benchmark.json (unless empty) and the report; the journal has then served.
+  // Writes benchmark.json (unless empty), results.csv, report.md and, last, results.json: a run with it is complete.
   void finish(const Results& results, const std::string& benchmarkJson);
 
  private:

@@ -155,7 +155,8 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& actio
   command->add_option("--frame", options->frame, "frame of the animation")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  command->add_option("--set", options->settings, "AXIS=VALUE of the raster; see `probebench axes list`");
+  command->add_option("--set", options->settings, "AXIS=VALUE of the raster; see `probebench axes list`")
+      ->allow_extra_args(false);
   command->add_option("--depth", options->depth, "specular bounces of the reference")->capture_default_str();
   command->add_option("--spp", options->spp, "samples per primary sample of the reference, even")
       ->check(CLI::Validator(
@@ -168,7 +169,7 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& actio
           "EVEN"))
       ->capture_default_str();
   command->add_option("--exposure", options->exposure, "stops")->check(CLI::Range(-32.0, 32.0))->capture_default_str();
-  command->add_option("--aov", options->aovs, "ids=FILE.exr: what each primary sample shows");
+  command->add_option("--aov", options->aovs, "ids=FILE.exr: what each primary sample shows")->allow_extra_args(false);
   command->callback(
       [&action, &globals, options] { action = [&globals, options] { return render(*options, globals); }; });
 }

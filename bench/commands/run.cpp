@@ -105,9 +105,10 @@ void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action) 
   const auto options = std::make_shared<RunOptions>();
   command->add_option("SUITE", options->suite, "a .toml file or the name of a shipped suite")->required();
   command->add_option("--out", options->output, "folder of the run (default out/SUITE)");
-  command->add_option("--scene", options->scenes, "in place of the suite's scenes; repeatable")->expected(1);
+  command->add_option("--scene", options->scenes, "in place of the suite's scenes; repeatable")
+      ->allow_extra_args(false);
   command->add_option("--set", options->settings, "AXIS=V1,V2..: in place of the suite's values; repeatable")
-      ->expected(1);
+      ->allow_extra_args(false);
   command->add_option("--only", options->only, "only cells whose key matches this regular expression");
   command->add_option("--shard", options->shard, "I/N: only part I of N; see merge");
   command->add_option("--store", options->store, "folder of stored references");
