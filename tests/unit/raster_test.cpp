@@ -258,6 +258,26 @@ TEST_P(Raster, GlassConservesEnergyInAWhiteFurnace) {
   for (const vec3& pixel : render(*snapshotOf(makeBall(kWhite, makeGlass(1.5f))))) ASSERT_NEAR(pixel.x, 1.0f, 1e-5f);
 }
 
+// The hardware knows orientation and seams of cube maps by itself; the exact filter has them from shading/cubemap.glsl.
+TEST_P(Raster, EnvironmentFacesLookAlikeThroughBothFilters) {
+  Scene scene = makeBall(kBlack, makeMirrorMaterial("mirror"));
+  scene.environment.sky.toGlow.w = 1.0f;
+  scene.environment.faces.assign(6, ImageRgba(4, 4));
+  for (std::size_t face = 0; face < 6; ++face)
+    for (std::size_t i = 0; i < 16; ++i) {
+      const auto x = static_cast<float>(16 * face + i);
+      scene.environment.faces[face][i] =
+          glm::vec4(0.5f) + 0.5f * glm::vec4(std::sin(x), std::sin(2.3f * x), std::sin(5.9f * x), 1.0f);
+    }
+  const auto snapshot = snapshotOf(std::move(scene));
+  Technique technique = withResolution(8);
+  technique.probes = ProbeUse::environmentOnly;
+  const Image exact = render(*snapshot, technique, 128, 128);
+  technique.textureFilter = TextureFilter::hardware;
+  // Weights of at least 8 bits on each of two axes between texels that differ by 1 at most.
+  EXPECT_LT(largestDifference(exact, render(*snapshot, technique, 128, 128)), 2.0f / 256.0f);
+}
+
 TEST_P(Raster, MirrorWithoutProbesShowsTheEnvironment) {
   Technique technique = withResolution(16);
   technique.probes = ProbeUse::environmentOnly;
