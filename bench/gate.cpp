@@ -154,12 +154,13 @@ class Comparison {
     const std::map<std::string, const CostResult*> costs = costsOfRun();
     if (const std::string obstacle = costObstacle(!costs.empty()); !obstacle.empty())
       return report_.notes.push_back(fmt::format("Cost was not compared: {}.", obstacle));
+    std::set<std::string> sequences;  // those that the run lacks altogether are found as missing cells
+    for (const CellResult& cell : run_.cells) sequences.insert(cell.sequenceKey());
     for (const auto& [sequence, before] : baseline_.costs) {
-      const auto found = costs.find(sequence);
-      if (found == costs.end())
-        report_.findings.push_back(makeFinding(FindingKind::missing, sequence, "cost"));
-      else
+      if (const auto found = costs.find(sequence); found != costs.end())
         compareCost(sequence, before, *found->second);
+      else if (sequences.contains(sequence))
+        report_.findings.push_back(makeFinding(FindingKind::missing, sequence, "cost"));
     }
   }
 

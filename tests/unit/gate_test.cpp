@@ -158,6 +158,13 @@ TEST(Gate, MissingAndSurplusCells_BothFail) {
   EXPECT_EQ(surplus.findings[0].cell, all.cells[2].key());
 }
 
+TEST(Gate, SequenceWithoutAnyCell_IsNotMissedAsACostAgain) {
+  const Results all = samples::makeResults();
+  Results fewer = all;
+  fewer.cells.erase(fewer.cells.begin(), fewer.cells.begin() + 2);
+  EXPECT_EQ(check(fewer, baselineOf(all)).findings.size(), 2u);
+}
+
 TEST(Gate, EmptyRun_Fails) {
   Results empty = samples::makeResults();
   empty.cells.clear();
