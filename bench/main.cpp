@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + "; see probebench --help", pb::Failure::input);
   }
+  if (!action) return fail("a command is wanted; see probebench --help", pb::Failure::input);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(globals.threadCount()));
   pb::installInterruptHandler();

@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMarker = "run.json";
 constexpr const char* kJournal = "journal.jsonl";
-// What a run (and, for report.csv, `probebench report -o`) writes, and what it removes of an earlier one; nothing else in
-// the folder is touched.
+// What a run (and, for report.csv, `probebench report -o`) writes, and what it removes of an earlier one; nothing else
+// in the folder is touched.
 constexpr const char* kFiles[] = {kJournal, "results.json", "results.csv", "benchmark.json", "report.md", "report.csv"};
 constexpr const char* kImages = "images";
 

@@ -41,8 +41,8 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& globals) {
 #else
   globals.gl = "egl";
 #endif
-  app.require_subcommand(1);
-  app.fallthrough();  // global options may stand after the command
+  app.require_subcommand(0, 1);  // none is main()'s to refuse: here a misspelt command would be reported as absent
+  app.fallthrough();             // global options may stand after the command
   app.add_option("--threads", globals.threads, "processor cores to use; 0: all")->check(CLI::Range(0, 1024));
   app.add_option("--gl", globals.gl, "where OpenGL comes from: osmesa or egl")
       ->check(CLI::IsMember({"osmesa", "egl"}))

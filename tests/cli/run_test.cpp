@@ -1,0 +1,333 @@
+// The program's main job on suites that are as small as can be.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bench/results.h"
+#include "scenes/files.h"
+#include "scenes/image_io.h"
+#include "tests/cli/program.h"
+#include "tests/temporary_folder.h"
+
+namespace pb {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr const char* kSmall = R"(
+schema = 1
+name = "small"
+image = { size = [32, 18], samples = 1 }
+cost = { repetitions = 0 }
+[[scene]]
+use = "builtin:mirrors?count=2"
+frames = [0, 2]
+[grid]
+resolution = [8, 16]
+refresh = ["every-frame", "static"]
+[tolerance]
+mse = { relative = 0.01 }
+)";
+
+// A folder with a suite file and a reference store of its own.
+class Workplace {
+ public:
+  explicit Workplace(const std::string& suite = kSmall) { writeFileAtomically(folder_.file("suite.toml"), suite); }
+
+  std::string path(const std::string& name) const { return folder_.file(name); }
+  std::vector<std::string> command(const std::string& out, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"run", path("suite.toml"), "--out", path(out)};
+    if (std::ranges::find(more, "--store") == more.end()) arguments.insert(arguments.end(), {"--store", path("store")});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  ProgramResult run(const std::string& out, std::vector<std::string> more = {}) const {
+    return runProgram(command(out, std::move(more)));
+  }
+  // The cells as they stand in results.json; equal texts mean equal bits.
+  std::vector<std::string> cells(const std::string& out) const {
+    std::vector<std::string> lines;
+    for (const CellResult& cell : readResults(path(out)).cells) lines.push_back(toJson(cell));
+    return lines;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+std::ptrdiff_t lineCount(const std::string& path) {
+  return fs::exists(path) ? std::ranges::count(readFile(path), '\n') : 0;
+}
+
+TEST(Run, OfASmallSuite_WritesResultsTablesAndImages) {
+  const Workplace workplace;
+  const ProgramResult result = workplace.run("run");
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  // Results on standard output, progress on standard error.
+  EXPECT_EQ(result.out, readFile(workplace.path("run/report.md")));
+  EXPECT_THAT(result.err, HasSubstr("8 cells in 4 raster sequences, 2 references"));
+  EXPECT_THAT(result.err, HasSubstr("control: 1 of 1"));
+  EXPECT_THAT(result.err, HasSubstr("errors of builtin:mirrors?count=2: 8 of 8"));
+
+  const Results results = readResults(workplace.path("run"));
+  EXPECT_EQ(results.cells.size(), 8u);
+  EXPECT_EQ(results.provenance.controlOutcome, "passed");
+  EXPECT_EQ(results.tolerance.size(), 1u);
+  for (const CellResult& cell : results.cells) {
+    EXPECT_GT(cell.metrics.sums.mse, 0);
+    EXPECT_TRUE(cell.maskMetrics.has_value());
+    EXPECT_GT(cell.maskMetrics->sums.mse, cell.metrics.sums.mse);  // the mask is where the approximation is
+  }
+  EXPECT_TRUE(fs::exists(workplace.path("run/results.csv")));
+  EXPECT_FALSE(fs::exists(workplace.path("run/benchmark.json")));  // no cost was measured
+
+  std::size_t references = 0, renderings = 0, maps = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(workplace.path("run/images"))) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with("-reference.exr"))
+      ++references;
+    else if (name.ends_with(".exr"))
+      ++renderings;
+    else if (name.ends_with("-flip.png"))
+      ++maps;
+  }
+  EXPECT_EQ(references, 2u);
+  EXPECT_EQ(renderings, 4u);
+  EXPECT_EQ(maps, 4u);
+}
+
+TEST(Run, WithAnyNumberOfThreads_HasTheSameBits) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("one", {"--threads", "1", "--store", workplace.path("store-one")}).exitCode, 0);
+  ASSERT_EQ(workplace.run("three", {"--threads", "3", "--store", workplace.path("store-three")}).exitCode, 0);
+  EXPECT_EQ(workplace.cells("one"), workplace.cells("three"));
+}
+
+TEST(Run, FromStoredReferences_HasTheSameBits) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("first").exitCode, 0);
+  ASSERT_EQ(workplace.run("second").exitCode, 0);
+  EXPECT_EQ(workplace.cells("first"), workplace.cells("second"));
+}
+
+TEST(Run, WithADamagedStore_WarnsAndRendersAnew) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("first").exitCode, 0);
+  for (const fs::directory_entry& entry : fs::directory_iterator(workplace.path("store")))
+    if (entry.path().extension() == ".exr") fs::resize_file(entry.path(), 100);
+  const ProgramResult result = workplace.run("second");
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_THAT(result.err, HasSubstr("warning: stored reference"));
+  EXPECT_EQ(workplace.cells("first"), workplace.cells("second"));
+}
+
+TEST(Run, WithOtherScenesAndAxes_ReplacesTheSuites) {
+  const Workplace workplace;
+  const ProgramResult result =
+      workplace.run("run", {"--scene", "builtin:mirrors?count=1", "--scene", "builtin:mirrors?count=3", "--set",
+                            "resolution=8", "--set", "refresh=static", "--only", "frame=2"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Results results = readResults(workplace.path("run"));
+  ASSERT_EQ(results.cells.size(), 2u);
+  EXPECT_EQ(results.cells[0].scene, "builtin:mirrors?count=1");
+  EXPECT_EQ(results.cells[1].scene, "builtin:mirrors?count=3");
+  EXPECT_EQ(results.cells[0].frame, 2);
+}
+
+TEST(Run, SameSuiteAgain_OverwritesItsOwnFolderOnly) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("run").exitCode, 0);
+  EXPECT_EQ(workplace.run("run", {"--set", "resolution=8"}).exitCode, 0);
+  EXPECT_EQ(workplace.cells("run").size(), 4u);
+
+  fs::create_directory(workplace.path("foreign"));
+  writeFileAtomically(workplace.path("foreign/thesis.txt"), "years of work");
+  const ProgramResult refused = workplace.run("foreign");
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_THAT(refused.err, HasSubstr("was not made by probebench"));
+}
+
+TEST(Run, Interrupted_KeepsFinishedCellsAndGoesOnWithResume) {
+  const Workplace workplace;
+  const std::vector<std::string> grid = {"--set", "resolution=8,16,32,64", "--set", "bounces=1,2,3"};
+  constexpr std::ptrdiff_t kCells = 48;  // enough that the interrupt comes long before the last one
+  ASSERT_EQ(workplace.run("whole", grid).exitCode, 0);
+
+  RunningProgram program(workplace.command("stopped", grid));
+  const std::string journal = workplace.path("stopped/journal.jsonl");
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (lineCount(journal) == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  program.signal(SIGINT);
+  const ProgramResult stopped = program.wait();
+  EXPECT_EQ(stopped.exitCode, 130);
+  EXPECT_THAT(stopped.err, HasSubstr("--resume goes on"));
+  EXPECT_FALSE(fs::exists(workplace.path("stopped/results.json")));
+  const std::ptrdiff_t kept = lineCount(journal);
+  EXPECT_GE(kept, 1);
+  EXPECT_LT(kept, kCells);
+
+  std::vector<std::string> resume = grid;
+  resume.emplace_back("--resume");
+  const ProgramResult resumed = workplace.run("stopped", resume);
+  EXPECT_EQ(resumed.exitCode, 0) << resumed.err;
+  // Only what was missing is measured.
+  EXPECT_THAT(resumed.err, HasSubstr(fmt::format("errors of builtin:mirrors?count=2: {0} of {0}", kCells - kept)));
+  EXPECT_EQ(lineCount(journal), kCells);
+  EXPECT_EQ(workplace.cells("stopped"), workplace.cells("whole"));
+}
+
+TEST(Run, ResumedWithOtherSettings_IsRefused) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("run").exitCode, 0);
+  const ProgramResult result = workplace.run("run", {"--resume", "--set", "resolution=8"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_THAT(result.err, HasSubstr("--resume wants the same"));
+}
+
+TEST(Run, ShardsMerged_AreTheWhole) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("whole").exitCode, 0);
+  ASSERT_EQ(workplace.run("a", {"--shard", "1/3"}).exitCode, 0);
+  ASSERT_EQ(workplace.run("b", {"--shard", "2/3"}).exitCode, 0);
+  ASSERT_EQ(workplace.run("c", {"--shard", "3/3"}).exitCode, 0);
+  const auto merge = [&](std::vector<std::string> parts) {
+    std::vector<std::string> arguments = {"merge"};
+    for (const std::string& part : parts) arguments.push_back(workplace.path(part));
+    arguments.insert(arguments.end(), {"-o", workplace.path("merged")});
+    return runProgram(arguments);
+  };
+  const ProgramResult merged = merge({"a", "b", "c"});
+  EXPECT_EQ(merged.exitCode, 0) << merged.err;
+  EXPECT_EQ(workplace.cells("merged"), workplace.cells("whole"));
+
+  const ProgramResult twice = merge({"a", "a"});
+  EXPECT_EQ(twice.exitCode, 2);
+  EXPECT_THAT(twice.err, HasSubstr("stands in another run too"));
+}
+
+TEST(Gate, PassesTheBlessedRunAndFailsAnotherOne) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("run").exitCode, 0);
+  const std::string baseline = workplace.path("baseline.json");
+  const ProgramResult blessed =
+      runProgram({"bless", workplace.path("run"), "--baseline", baseline, "--reason", "first"});
+  EXPECT_EQ(blessed.exitCode, 0) << blessed.err;
+  const ProgramResult same = runProgram(
+      {"check", workplace.path("run"), "--baseline", baseline, "--junit", workplace.path("junit.xml"), "--json"});
+  EXPECT_EQ(same.exitCode, 0) << same.out;
+  EXPECT_TRUE(nlohmann::json::accept(same.out));
+  EXPECT_THAT(readFile(workplace.path("junit.xml")), HasSubstr("<testsuite"));
+
+  ASSERT_EQ(workplace.run("run", {"--set", "resolution=8"}).exitCode, 0);  // half of the cells are missing
+  const ProgramResult other = runProgram({"check", workplace.path("run"), "--baseline", baseline});
+  EXPECT_EQ(other.exitCode, 1);
+  EXPECT_THAT(other.out, HasSubstr("missing"));
+}
+
+TEST(Run, WithCost_MeasuresWhatTheModelCounts) {
+  std::string suite = kSmall;
+  suite.replace(suite.find("repetitions = 0"), 15, "repetitions = 3");
+  const Workplace workplace(suite);
+  const ProgramResult result = workplace.run("run", {"--set", "refresh=every-frame,faces?k=1,static", "--set",
+                                                     "bounces=1,2", "--only", "frame=0 .*resolution=8"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Results results = readResults(workplace.path("run"));
+  ASSERT_EQ(results.cells.size(), 6u);
+  for (const CellResult& cell : results.cells) {
+    ASSERT_TRUE(cell.cost.has_value());
+    EXPECT_EQ(cell.cost->repetitions, 3);
+    // Analytic and counted: 6NB+1 with N = 2 mirrors, 1+B for one face a frame, 1 for static.
+    EXPECT_NEAR(cell.cost->measuredRendersPerFrame, cell.cost->rendersPerFrame, 1e-9) << cell.key();
+    EXPECT_LE(cell.cost->frameMsLow, cell.cost->frameMs);
+    EXPECT_GE(cell.cost->frameMsHigh, cell.cost->frameMs);
+    EXPECT_GT(cell.cost->plainMs, 0);
+  }
+  EXPECT_EQ(results.cells[0].cost->rendersPerFrame, 13);
+  EXPECT_EQ(results.cells[1].cost->rendersPerFrame, 25);
+  EXPECT_EQ(results.cells[2].cost->rendersPerFrame, 2);
+  EXPECT_EQ(results.cells[3].cost->rendersPerFrame, 3);
+  EXPECT_EQ(results.cells[4].cost->rendersPerFrame, 1);
+
+  const auto benchmark = nlohmann::json::parse(readFile(workplace.path("run/benchmark.json")));
+  EXPECT_TRUE(benchmark["context"].contains("gl_renderer"));
+  const auto isRepetition = [](const auto& b) { return b["run_type"] == "iteration"; };
+  EXPECT_EQ(std::ranges::count_if(benchmark["benchmarks"], isRepetition), 6 * 3);
+}
+
+TEST(Run, OnAFullDisk_EndsWithOneSentenceAndNothingHalfWritten) {
+  const Workplace workplace;
+  // Small enough for no image, large enough for the marker and messages.
+  ProgramOptions full;
+  full.maxFileBytes = 1024;
+  const ProgramResult result = runProgram(workplace.command("run"), full);
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("\nprobebench: "));
+  EXPECT_FALSE(fs::exists(workplace.path("run/results.json")));
+  for (const fs::directory_entry& entry :
+       fs::recursive_directory_iterator(fs::path(workplace.path("run")).parent_path()))
+    if (entry.is_regular_file()) {
+      EXPECT_LT(entry.file_size(), 1024u) << entry.path();
+      EXPECT_NE(entry.path().extension(), ".exr") << entry.path();
+    }
+}
+
+// /proc refuses new folders even to root.
+TEST(Run, IntoAFolderThatCantBeMade_IsAnEnvironmentError) {
+  const Workplace workplace;
+  ProgramResult result = runProgram({"run", workplace.path("suite.toml"), "--out", "/proc/run"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_THAT(result.err, HasSubstr("output folder '/proc/run' can't be made"));
+
+  result = workplace.run("run", {"--store", "/proc/store"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_THAT(result.err, HasSubstr("reference store '/proc/store' can't be made"));
+}
+
+TEST(Render, OfBothRenderers_WritesPicturesThatAgreeOutsideOfMirrors) {
+  const Workplace workplace;
+  for (const char* renderer : {"raster", "reference"}) {
+    const ProgramResult result = runProgram({"render", "builtin:mirrors", "--with", renderer, "-o",
+                                             workplace.path(std::string(renderer) + ".exr"), "--size", "64x36", "--aov",
+                                             "ids=" + workplace.path(std::string(renderer) + "-ids.exr")});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  }
+  const Image raster = rgbOf(readImage(workplace.path("raster.exr")).pixels);
+  const Image reference = rgbOf(readImage(workplace.path("reference.exr")).pixels);
+  ASSERT_EQ(raster.width(), 64);
+  EXPECT_NEAR(raster(32, 0).z, reference(32, 0).z, 1e-5f);  // the sky at the top
+  EXPECT_NE(raster, reference);                             // the mirrors differ
+  const std::vector<NamedPlane> ids = readExrChannels(workplace.path("raster-ids.exr"));
+  ASSERT_EQ(ids.size(), 3u);
+  EXPECT_EQ(ids[0].plane.width(), 128);  // 2 x 2 samples a pixel
+}
+
+TEST(Render, IntoAFolderThatIsNotThere_IsAnEnvironmentError) {
+  const ProgramResult result =
+      runProgram({"render", "builtin:mirrors", "--with", "reference", "--size", "16x16", "-o", "/proc/a.exr"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_THAT(result.err, HasSubstr("/proc/a.exr"));
+}
+
+TEST(Render, Exposure_ScalesByStops) {
+  const Workplace workplace;
+  for (const char* stops : {"0", "1"}) {
+    const ProgramResult result = runProgram({"render", "builtin:mirrors", "--with", "reference", "--size", "16x16",
+                                             "--exposure", stops, "-o", workplace.path(std::string(stops) + ".exr")});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  }
+  const Image plain = rgbOf(readImage(workplace.path("0.exr")).pixels);
+  const Image brighter = rgbOf(readImage(workplace.path("1.exr")).pixels);
+  for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(brighter[i], 2.0f * plain[i]);
+}
+
+}  // namespace
+}  // namespace pb
