@@ -7,6 +7,7 @@
 namespace pb {
 
 Scene makeControlScene(SpecReader& parameters);
+Scene makeMirrorRoomScene(SpecReader& parameters);
 Scene makeMirrorsScene(SpecReader& parameters);
 Scene makeTeapotScene(SpecReader& parameters);
 
@@ -15,6 +16,8 @@ const std::vector<BuiltinScene>& builtinScenes() {
       {"control", "textures = 1 or 0 for plain colours and no normal maps, default 1",
        "No specular surface at all: many shapes, textures, normal maps and transforms under three lights.",
        makeControlScene},
+      {"mirror-room", "count = mirror balls, 1 to 16, default 5",
+       "Small mirror balls in a closed room: little parallax, many bounces.", makeMirrorRoomScene},
       {"mirrors", "count = mirror balls on the ring, 1 to 64, default 5",
        "A ring of mirror balls that reflect each other on a checkered ground.", makeMirrorsScene},
       {"teapot", "", "A mirror teapot with a matte one on an orbit around it.", makeTeapotScene},
