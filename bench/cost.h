@@ -1,8 +1,8 @@
 // Frame cost, measured through Google Benchmark with manual time, nothing else running. Method: docs/suites.md.
 //
-// A repetition is a block of frames followed at once by a block of plain frames, so that both see the machine in the
-// same state and their ratio is paired. The first frame of a sequence (complete capture) and one block of warm-up are
-// not counted.
+// A repetition is a block of frames between two short blocks of plain frames, so that both see the machine in the same
+// state, their ratio is paired, and a drift of its speed cancels to first order. The first frame of a sequence
+// (complete capture) and one block of warm-up are not counted.
 #pragma once
 
 #include <functional>

@@ -131,7 +131,7 @@ class Runner {
     }
     if (sequences.empty()) return;
     const Truths truths = makeTruths(scene, frames);
-    c_.progress.begin(fmt::format("errors of {}", suiteScene(scene).name), cells);
+    c_.progress.begin(fmt::format("errors of {}", c_.scenes[scene]->name), cells);
     TaskQueue queue;
     for (const PlannedSequence* sequence : sequences) measureSequence(*sequence, truths, queue);
     queue.wait();
@@ -145,7 +145,7 @@ class Runner {
                             c_.suite.image.samplesPerAxis);
     const TruthMaker maker(c_.store, c_.suite.image, c_.suite.reference,
                            [&](const Snapshot& s) { return idRaster.renderIds(s); });
-    c_.progress.begin(fmt::format("references of {}", suiteScene(scene).name), frames.size());
+    c_.progress.begin(fmt::format("references of {}", c_.scenes[scene]->name), frames.size());
     Truths truths;
     std::vector<std::string> warnings;
     for (const int frame : frames) {
@@ -212,9 +212,10 @@ class Runner {
     writePngEncoded(path + "-flip.png", magma(flipMap));
   }
 
-  // The scene's number keeps names apart that differ in replaced characters only.
+  // The scene's number keeps scenes of one name apart.
   std::string frameName(std::size_t scene, int frame) const {
-    return fmt::format("{}-{}-frame{}", scene, fileName(suiteScene(scene).name), frame);
+    constexpr std::size_t kMaxLength = 60;  // file names have at most 255 bytes, the axes come behind
+    return fmt::format("{}-{}-frame{}", scene, fileName(c_.scenes[scene]->name.substr(0, kMaxLength)), frame);
   }
 
   std::vector<CellResult> orderedCells() const {

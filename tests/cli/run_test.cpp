@@ -75,7 +75,7 @@ TEST(Run, OfASmallSuite_WritesResultsTablesAndImages) {
   EXPECT_EQ(result.out, readFile(workplace.path("run/report.md")));
   EXPECT_THAT(result.err, HasSubstr("8 cells in 4 raster sequences, 2 references"));
   EXPECT_THAT(result.err, HasSubstr("control: 1 of 1"));
-  EXPECT_THAT(result.err, HasSubstr("errors of builtin:mirrors?count=2: 8 of 8"));
+  EXPECT_THAT(result.err, HasSubstr("errors of mirrors: 8 of 8"));
 
   const Results results = readResults(workplace.path("run"));
   EXPECT_EQ(results.cells.size(), 8u);
@@ -180,7 +180,7 @@ TEST(Run, Interrupted_KeepsFinishedCellsAndGoesOnWithResume) {
   const ProgramResult resumed = workplace.run("stopped", resume);
   EXPECT_EQ(resumed.exitCode, 0) << resumed.err;
   // Only what was missing is measured.
-  EXPECT_THAT(resumed.err, HasSubstr(fmt::format("errors of builtin:mirrors?count=2: {0} of {0}", kCells - kept)));
+  EXPECT_THAT(resumed.err, HasSubstr(fmt::format("errors of mirrors: {0} of {0}", kCells - kept)));
   EXPECT_EQ(lineCount(journal), kCells);
   EXPECT_EQ(workplace.cells("stopped"), workplace.cells("whole"));
 }
