@@ -1,5 +1,6 @@
 #include "bench/cost.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "scenes/scene.h"
