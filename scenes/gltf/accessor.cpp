@@ -150,17 +150,6 @@ void visit(const Source& source, std::size_t count, const Assign& assign) {
   }
 }
 
-// Runs read(accessor), putting the accessor's place before the message of an error.
-template <class Read>
-auto withPlace(const Document& document, int index, const Read& read) {
-  const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
-  try {
-    return read(accessor);
-  } catch (const Error& e) {
-    throw Error(e.kind(), fmt::format("accessors/{}: {}", index, e.what()));
-  }
-}
-
 std::vector<glm::vec4> readElements(const Document& document, int accessor, int wantedComponents) {
   FloatAccessor values = readFloats(document, accessor);
   if (values.components != wantedComponents)
@@ -171,7 +160,8 @@ std::vector<glm::vec4> readElements(const Document& document, int accessor, int 
 }  // namespace
 
 FloatAccessor readFloats(const Document& document, int index) {
-  return withPlace(document, index, [&](const tinygltf::Accessor& accessor) {
+  const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
+  return atPlace(fmt::format("accessors/{}", index), [&] {
     const Source source = locate(document, accessor);
     const int components = componentsOf(accessor);
     const glm::vec4 zero(0.0f, 0.0f, 0.0f, components < 4 ? 1.0f : 0.0f);
@@ -188,7 +178,8 @@ FloatAccessor readFloats(const Document& document, int index) {
 }
 
 std::vector<std::uint32_t> readIndices(const Document& document, int index) {
-  return withPlace(document, index, [&](const tinygltf::Accessor& accessor) {
+  const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
+  return atPlace(fmt::format("accessors/{}", index), [&] {
     if (accessor.type != TINYGLTF_TYPE_SCALAR) throwInputError("indices are scalars, got a vector");
     const Source source = locate(document, accessor);
     std::vector<std::uint32_t> result(accessor.count, 0);

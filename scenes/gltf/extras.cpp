@@ -164,7 +164,8 @@ bool readSceneExtras(const Document& document, const json& extras, Scene& scene)
   return true;
 }
 
-std::optional<ProbeSettings> readProbeExtras(const json& extras, const std::string& place) {
+std::optional<ProbeSettings> readProbeExtras(const json& extras) {
+  const std::string place = "extras.probe";
   if (!extras.is_object() || !extras.contains("probe")) return std::nullopt;
   const json& probe = extras["probe"];
   if (probe.is_boolean()) return ProbeSettings{.enabled = probe, .position = {}};

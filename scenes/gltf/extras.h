@@ -18,7 +18,7 @@ namespace pb::gltf {
 bool readSceneExtras(const Document& document, const nlohmann::json& extras, Scene& scene);
 
 // nodes[].extras.probe: true, false or {"enabled": ..., "position": [x, y, z]}.
-std::optional<ProbeSettings> readProbeExtras(const nlohmann::json& extras, const std::string& place);
+std::optional<ProbeSettings> readProbeExtras(const nlohmann::json& extras);
 
 // Adds bytes to the file and returns their buffer view.
 using AddBufferView = std::function<int(std::string_view bytes)>;

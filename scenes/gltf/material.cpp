@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// Below: a mirror or clear glass with a probe (DESIGN: specular-dominant); above: no specular lookup.
+// Metals smoother than this are specular-dominant: mirrors with a probe. Rougher ones get no specular lookup.
 constexpr float kSmoothRoughness = 0.3f;
 
 enum class Content { color, data };  // colours are sRGB in integer formats, data is linear
@@ -147,13 +147,14 @@ class TextureReader {
 // One material at a time, with the place for its messages.
 class MaterialReader {
  public:
-  MaterialReader(const Document& document, std::size_t index, TextureReader& textures, Scene& scene)
+  MaterialReader(const Document& document, std::size_t index, const std::string& place, TextureReader& textures,
+                 Scene& scene)
       : document_(document),
         source_(document.model.materials[index]),
         json_(document.json["materials"][index]),
         textures_(textures),
         scene_(scene),
-        place_("material " + label(source_.name, index)) {
+        place_(place) {
     material_ =
         makeDiffuseMaterial(source_.name.empty() ? fmt::format("material {}", index) : source_.name, glm::vec3(1.0f));
   }
@@ -246,7 +247,8 @@ class MaterialReader {
   }
 
   void classify() {
-    const auto [metallic, roughness] = std::pair(meanMetallicRoughness().x, meanMetallicRoughness().y);
+    const glm::vec2 mean = meanMetallicRoughness();
+    const float metallic = mean.x, roughness = mean.y;
     float& kind = material_.constants.kind.x;
     if (Extension(json_, "KHR_materials_unlit").present()) {
       kind = shading::kSurfaceUnlit;
@@ -307,11 +309,9 @@ bool needsDefaultMaterial(const tinygltf::Model& model) {
 void readMaterials(const Document& document, Scene& scene) {
   TextureReader textures(document, scene.textures);
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
-    try {
-      scene.materials.push_back(MaterialReader(document, i, textures, scene).read());
-    } catch (const Error& e) {
-      throw Error(e.kind(), fmt::format("material {}: {}", label(document.model.materials[i].name, i), e.what()));
-    }
+    const std::string place = "material " + label(document.model.materials[i].name, i);
+    scene.materials.push_back(
+        atPlace(place, [&] { return MaterialReader(document, i, place, textures, scene).read(); }));
   }
   if (!needsDefaultMaterial(document.model)) return;
   scene.materials.push_back(defaultMaterial());

@@ -74,8 +74,8 @@ bool isTriangleMode(int mode) {
   return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP || mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-std::string placeOf(const tinygltf::Mesh& mesh, int meshIndex, int primitive) {
-  return fmt::format("mesh {} primitive {}", label(mesh.name, static_cast<std::size_t>(meshIndex)), primitive);
+std::string placeOf(const tinygltf::Mesh& mesh, std::size_t meshIndex, std::size_t primitive) {
+  return fmt::format("mesh {} primitive {}", label(mesh.name, meshIndex), primitive);
 }
 
 // Why the primitive is left out, or "".
@@ -107,27 +107,25 @@ Mesh toMesh(const RawPrimitive& raw, int mode, std::string name) {
 
 }  // namespace
 
-std::shared_ptr<const Mesh> readPrimitive(const Document& document, int meshIndex, int primitiveIndex,
+std::shared_ptr<const Mesh> readPrimitive(const Document& document, std::size_t meshIndex, std::size_t primitiveIndex,
                                           bool needsTangents, std::vector<std::string>& warnings) {
-  const auto m = static_cast<std::size_t>(meshIndex), p = static_cast<std::size_t>(primitiveIndex);
-  const tinygltf::Mesh& mesh = document.model.meshes.at(m);
-  const tinygltf::Primitive& primitive = mesh.primitives.at(p);
+  const tinygltf::Mesh& mesh = document.model.meshes.at(meshIndex);
+  const tinygltf::Primitive& primitive = mesh.primitives.at(primitiveIndex);
   const std::string place = placeOf(mesh, meshIndex, primitiveIndex);
   if (const std::string reason = reasonToSkip(primitive); !reason.empty()) {
     warnings.push_back(place + ": " + reason);
     return nullptr;
   }
   warnIgnored(primitive, place, warnings);
-  try {
-    const RawPrimitive raw = readRaw(document, primitive, document.json["meshes"][m]["primitives"][p]);
+  const auto result = atPlace(place, [&] {
+    const RawPrimitive raw =
+        readRaw(document, primitive, document.json["meshes"][meshIndex]["primitives"][primitiveIndex]);
     const std::string name = mesh.name.empty() ? fmt::format("mesh {}", meshIndex) : mesh.name;
-    std::shared_ptr<const Mesh> result = finishMesh(toMesh(raw, primitive.mode, name), needsTangents);
-    if (result->triangleCount() > 0) return result;
-    warnings.push_back(place + ": no triangle has an area");
-    return nullptr;
-  } catch (const Error& e) {
-    throw Error(e.kind(), place + ": " + e.what());
-  }
+    return finishMesh(toMesh(raw, primitive.mode, name), needsTangents);
+  });
+  if (result->triangleCount() > 0) return result;
+  warnings.push_back(place + ": no triangle has an area");
+  return nullptr;
 }
 
 }  // namespace pb::gltf

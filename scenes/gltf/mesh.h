@@ -12,7 +12,7 @@ namespace pb::gltf {
 
 // Triangles, strips and fans become triangle lists. nullptr, with a warning, for what can't be drawn: points, lines,
 // primitives without positions or without area.
-std::shared_ptr<const Mesh> readPrimitive(const Document& document, int mesh, int primitive, bool needsTangents,
-                                          std::vector<std::string>& warnings);
+std::shared_ptr<const Mesh> readPrimitive(const Document& document, std::size_t mesh, std::size_t primitive,
+                                          bool needsTangents, std::vector<std::string>& warnings);
 
 }  // namespace pb::gltf

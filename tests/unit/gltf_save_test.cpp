@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
-#include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "bench/json_document.h"
 #include "scenes/describe.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
+#include "scenes/files.h"
 #include "scenes/gltf_load.h"
 #include "scenes/snapshot.h"
 #include "tests/temporary_folder.h"
@@ -167,6 +169,27 @@ TEST(SaveGlb, OfACubeMapEnvironment_KeepsItsFacesBitByBit) {
   EXPECT_EQ(loaded->environment.name, "room");
   EXPECT_EQ(loaded->environment.faces, faces);
   EXPECT_TRUE(sameBytes(loaded->environment.ambient, scene.environment.ambient));
+}
+
+// The JSON of a .glb: its first chunk, after 20 bytes of headers.
+nlohmann::json jsonOf(const std::string& glb) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, &glb[12], sizeof length);
+  return nlohmann::json::parse(glb.substr(20, length));
+}
+
+TEST(SaveGlb, WritesExtrasThatMatchTheirSchema) {
+  const TemporaryFolder folder;
+  const std::string schema = readFile(PROBEBENCH_SOURCE_DIR "/results/schema/scene-extras.schema.json");
+  Scene cube = *loadScene("builtin:mirrors?count=1");
+  cube.environment = makeCubeEnvironment("room", std::vector<ImageRgba>(6, ImageRgba(1, 1)));
+  for (const Scene& scene : {*loadScene("builtin:teapot"), cube}) {
+    saveGlb(scene, folder.file("scene.glb"));
+    nlohmann::json extras = jsonOf(readFile(folder.file("scene.glb")))["scenes"][0]["extras"]["probebench"];
+    EXPECT_NO_THROW(parsePart(extras.dump(), "extras", schema));
+    extras["environment"].erase("ambient");
+    EXPECT_THROW(parsePart(extras.dump(), "extras", schema), Error);
+  }
 }
 
 TEST(SaveGlb, WhereItCannotWrite_IsAnEnvironmentError) {
