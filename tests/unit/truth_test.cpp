@@ -1,0 +1,73 @@
+#include "bench/truth.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "scenes/environment.h"
+#include "tests/analytic/reference_scenes.h"
+#include "tests/temporary_folder.h"
+
+namespace pb {
+namespace {
+
+constexpr ImageSettings kImage{16, 16, 1};
+
+// A glass ball under the sky: reflection or refraction is chosen at random, so the reference has noise.
+std::shared_ptr<const Snapshot> glassBall() {
+  Scene scene = test::makeSceneUnder(makeProceduralSky());
+  test::add(scene, makeSphereMesh(1.0f, 32, 16), test::makeGlass(1.5f));
+  return test::finish(std::move(scene));
+}
+
+Grid<SampleId> nothingSeen(const Snapshot&) { return Grid<SampleId>(16, 16); }
+
+std::shared_ptr<const Truth> makeTruth(const ReferenceStore& store, const TruthSettings& settings) {
+  std::vector<std::string> warnings;
+  const auto truth = TruthMaker(store, kImage, settings, nothingSeen).make(glassBall(), 0, warnings);
+  EXPECT_TRUE(warnings.empty());
+  return truth;
+}
+
+std::size_t entryCount(const TemporaryFolder& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    count += entry.path().extension() == ".exr";
+  return count;
+}
+
+TEST(Truth, SamplesAreDoubledUntilTheNoiseIsMet) {
+  const TemporaryFolder folder;
+  const ReferenceStore store(folder.path());
+  const double start = makeTruth(store, {.depth = {}, .spp = 4, .maxNoise = {}})->noise;
+  EXPECT_EQ(entryCount(folder), 1u);
+  // Noise falls as 1/spp: an eighth takes three doublings, on average.
+  const auto quieter = makeTruth(store, {.depth = {}, .spp = 4, .maxNoise = start / 8});
+  EXPECT_LE(quieter->noise, start / 8);
+  EXPECT_GE(entryCount(folder), 3u);
+  EXPECT_LE(entryCount(folder), 6u);
+}
+
+TEST(Truth, ThatCantMeetTheNoise_StopsAtTheLimitOfSamples) {
+  const TemporaryFolder folder;
+  const auto truth = makeTruth(ReferenceStore(folder.path()), {.depth = {}, .spp = kMaxSpp / 2, .maxNoise = 0.0});
+  EXPECT_GT(truth->noise, 0.0);
+  EXPECT_EQ(entryCount(folder), 2u);
+}
+
+TEST(Truth, FloorIsThatOfItsHalvesAndTheMaskThatOfTheBall) {
+  const TemporaryFolder folder;
+  const auto truth = makeTruth(ReferenceStore(folder.path()), {});
+  EXPECT_EQ(truth->floor[1].first, "relmse");
+  EXPECT_EQ(truth->floor[1].second, truth->noise);
+  EXPECT_NE(truth->halfA, truth->halfB);
+  EXPECT_NE(truth->mask(8, 8), 0);
+  EXPECT_EQ(truth->mask(0, 0), 0);
+  // All noise is inside the mask: its mean there is larger by the share of pixels that the mask takes.
+  const auto inside = static_cast<double>(std::ranges::count_if(truth->mask, [](unsigned char m) { return m != 0; }));
+  EXPECT_NEAR(truth->maskFloor[0].second * inside, truth->floor[0].second * 256, 1e-9 * truth->floor[0].second * 256);
+}
+
+}  // namespace
+}  // namespace pb
