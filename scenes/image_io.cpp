@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string_view>
 

@@ -150,13 +150,6 @@ void visit(const Source& source, std::size_t count, const Assign& assign) {
   }
 }
 
-std::vector<glm::vec4> readElements(const Document& document, int accessor, int wantedComponents) {
-  FloatAccessor values = readFloats(document, accessor);
-  if (values.components != wantedComponents)
-    throwInputError("accessors/{} wants {} components here, got {}", accessor, wantedComponents, values.components);
-  return std::move(values.elements);
-}
-
 }  // namespace
 
 FloatAccessor readFloats(const Document& document, int index) {
@@ -189,17 +182,5 @@ std::vector<std::uint32_t> readIndices(const Document& document, int index) {
     return result;
   });
 }
-
-std::vector<glm::vec2> readVec2s(const Document& document, int accessor) {
-  const std::vector<glm::vec4> elements = readElements(document, accessor, 2);
-  return {elements.begin(), elements.end()};
-}
-
-std::vector<glm::vec3> readVec3s(const Document& document, int accessor) {
-  const std::vector<glm::vec4> elements = readElements(document, accessor, 3);
-  return {elements.begin(), elements.end()};
-}
-
-std::vector<glm::vec4> readVec4s(const Document& document, int accessor) { return readElements(document, accessor, 4); }
 
 }  // namespace pb::gltf

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -22,10 +20,5 @@ FloatAccessor readFloats(const Document& document, int accessor);
 
 // Of an accessor of unsigned integers.
 std::vector<std::uint32_t> readIndices(const Document& document, int accessor);
-
-// As readFloats, for an accessor that must have the number of components.
-std::vector<glm::vec2> readVec2s(const Document& document, int accessor);
-std::vector<glm::vec3> readVec3s(const Document& document, int accessor);
-std::vector<glm::vec4> readVec4s(const Document& document, int accessor);
 
 }  // namespace pb::gltf
