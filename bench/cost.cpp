@@ -11,7 +11,6 @@
 #include "bench/interrupt.h"
 #include "bench/statistics.h"
 #include "raster/refresh.h"
-#include "scenes/error.h"
 
 namespace pb {
 namespace {

@@ -1,7 +1,6 @@
 // Suites: what is rendered and measured, as a TOML file says it. Format: docs/suites.md.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

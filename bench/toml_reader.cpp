@@ -1,7 +1,6 @@
 #include "bench/toml_reader.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "scenes/spec.h"
 

@@ -4,7 +4,6 @@
 
 #include "bench/interrupt.h"
 #include "bench/mask.h"
-#include "scenes/error.h"
 
 namespace pb {
 namespace {
