@@ -1,6 +1,7 @@
 #include "bench/cost.h"
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
