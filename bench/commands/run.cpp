@@ -22,7 +22,7 @@ struct RunOptions {
   std::string suite, output, store;
   std::vector<std::string> scenes, settings;
   std::optional<std::string> only, shard;
-  bool resume = false, dryRun = false;
+  bool noCost = false, resume = false, dryRun = false;
 };
 
 // The suite as the options change it.
@@ -33,6 +33,7 @@ Suite effectiveSuite(const RunOptions& options) {
     suite.scenes.clear();
     for (const std::string& reference : options.scenes) suite.scenes.push_back(sceneLike(like, reference));
   }
+  if (options.noCost) suite.cost.repetitions = 0;
   for (const std::string& text : options.settings) setGridAxis(suite, parseAxisValues(text));
   return suite;
 }
@@ -112,6 +113,7 @@ void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action) 
   command->add_option("--only", options->only, "only cells whose key matches this regular expression");
   command->add_option("--shard", options->shard, "I/N: only part I of N; see merge");
   command->add_option("--store", options->store, "folder of stored references");
+  command->add_flag("--no-cost", options->noCost, "measure errors only");
   command->add_flag("--resume", options->resume, "go on with a run that was stopped");
   command->add_flag("--dry-run", options->dryRun, "print what would be measured");
   command->callback(
