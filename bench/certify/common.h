@@ -8,6 +8,7 @@
 #include "raster/renderer.h"
 #include "reference/renderer.h"
 #include "scenes/builtin/shapes.h"
+#include "scenes/environment.h"
 #include "scenes/snapshot.h"
 
 namespace pb {
@@ -21,7 +22,18 @@ inline std::shared_ptr<const Snapshot> snapshotOf(Scene scene, double aspect = 1
   return makeSnapshot(std::make_shared<const Scene>(std::move(scene)), 0, "", aspect);
 }
 
-// The faces of probe 0 after one frame.
+// Radiance horizon + slope * max(d.y, 0), grey.
+inline Environment makeLinearSky(double horizon, double slope) {
+  shading::Sky sky{};
+  sky.horizon = glm::vec4(glm::vec3(static_cast<float>(horizon)), 0.0f);
+  sky.zenith = glm::vec4(glm::vec3(static_cast<float>(horizon + slope)), 0.0f);
+  sky.below = sky.horizon;
+  sky.glow.w = 1.0f;
+  sky.toGlow = {0.0f, 1.0f, 0.0f, 0.0f};
+  return makeGradientEnvironment(sky);
+}
+
+// The faces of one probe after one frame.
 inline std::array<Image, 6> captureProbe(RasterDevice& device, const Snapshot& snapshot, const Technique& technique,
                                          int probe = 0) {
   RasterSequence sequence(device, technique, 8, 8, 1);

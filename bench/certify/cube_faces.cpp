@@ -6,7 +6,6 @@
 
 #include "bench/certify.h"
 #include "bench/certify/common.h"
-#include "scenes/environment.h"
 
 namespace pb {
 namespace {

@@ -11,7 +11,6 @@
 
 #include "bench/certify.h"
 #include "bench/certify/common.h"
-#include "scenes/environment.h"
 
 namespace pb {
 namespace {

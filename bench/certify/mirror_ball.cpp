@@ -8,7 +8,6 @@
 
 #include "bench/certify.h"
 #include "bench/certify/common.h"
-#include "scenes/environment.h"
 
 namespace pb {
 namespace {
@@ -24,13 +23,7 @@ constexpr double kSmallestCosine = 0.3;
 
 Scene makeBall() {
   Scene scene;
-  shading::Sky sky{};
-  sky.horizon = glm::vec4(glm::vec3(static_cast<float>(kHorizon)), 0.0f);
-  sky.zenith = glm::vec4(glm::vec3(static_cast<float>(kHorizon + kSlope)), 0.0f);
-  sky.below = sky.horizon;
-  sky.glow.w = 1.0f;
-  sky.toGlow = {0.0f, 1.0f, 0.0f, 0.0f};
-  scene.environment = makeGradientEnvironment(sky);
+  scene.environment = makeLinearSky(kHorizon, kSlope);
   addInstance(scene, "Ball", finishMesh(makeSphereMesh(1.0f, kSegments, kSegments / 2)),
               addMaterial(scene, makeMirrorMaterial("Mirror")));
   addCamera(scene, "Camera", {0.0f, 0.0f, static_cast<float>(kDistance)}, glm::vec3(0.0f), 0.45f, 0.1f);

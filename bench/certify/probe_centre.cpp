@@ -9,7 +9,6 @@
 
 #include "bench/certify.h"
 #include "bench/certify/common.h"
-#include "scenes/environment.h"
 
 namespace pb {
 namespace {
@@ -20,15 +19,9 @@ constexpr double kSlope = 0.4;
 
 Scene makeOpenSky() {
   Scene scene;
-  shading::Sky sky{};
-  sky.horizon = glm::vec4(glm::vec3(static_cast<float>(kHorizon)), 0.0f);
-  sky.zenith = glm::vec4(glm::vec3(static_cast<float>(kHorizon + kSlope)), 0.0f);
-  sky.below = sky.horizon;
-  sky.glow.w = 1.0f;
-  sky.toGlow = {0.0f, 1.0f, 0.0f, 0.0f};
   addInstance(scene, "Probe", finishMesh(makeSphereMesh(0.1f, 16, 8)),
               addMaterial(scene, makeMirrorMaterial("Mirror")));
-  scene.environment = makeGradientEnvironment(sky);
+  scene.environment = makeLinearSky(kHorizon, kSlope);
   return scene;
 }
 

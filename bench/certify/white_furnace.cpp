@@ -3,7 +3,6 @@
 #include "bench/certify.h"
 #include "bench/certify/common.h"
 #include "scenes/builtin/teapot_mesh.h"
-#include "scenes/environment.h"
 
 namespace pb {
 namespace {
