@@ -89,7 +89,7 @@ TEST(DryRun, PrintsThePlanAndWritesNothing) {
   const TemporaryFolder folder;
   const ProgramResult result = runProgram({"run", "quick", "--dry-run", "--out", folder.file("run")});
   EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("189 cells in 54 raster sequences, 7 references, 54 cost measurements"));
+  EXPECT_THAT(result.out, HasSubstr("216 cells in 81 raster sequences, 8 references, 81 cost measurements"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -80,12 +80,14 @@ float largestDifference(const Image& a, const Image& b) {
 
 class Raster : public testing::TestWithParam<GlBackend> {
  protected:
+  // Shared by the tests, given back before the process ends: OSMesa takes itself down at exit, before static objects
+  // go.
   static RasterDevice& deviceOf(GlBackend backend) {
-    static std::map<GlBackend, std::unique_ptr<RasterDevice>> devices;
-    std::unique_ptr<RasterDevice>& device = devices[backend];
+    std::unique_ptr<RasterDevice>& device = devices_[backend];
     if (!device) device = std::make_unique<RasterDevice>(backend);
     return *device;
   }
+  static void TearDownTestSuite() { devices_.clear(); }
 
   void SetUp() override {
     if (GetParam() == GlBackend::osmesa && !kHasOsmesa) GTEST_SKIP() << "this build has no OSMesa backend";
@@ -98,6 +100,9 @@ class Raster : public testing::TestWithParam<GlBackend> {
     sequence.renderFrame(snapshot);
     return sequence.readImage();
   }
+
+ private:
+  static inline std::map<GlBackend, std::unique_ptr<RasterDevice>> devices_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Gl, Raster, testing::Values(GlBackend::osmesa, GlBackend::egl),
