@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <numeric>
@@ -12,13 +13,15 @@
 #include "bench/interrupt.h"
 #include "bench/statistics.h"
 #include "raster/refresh.h"
+#include "scenes/error.h"
 
 namespace pb {
 namespace {
 
 using Snapshots = std::vector<std::shared_ptr<const Snapshot>>;
 
-constexpr std::size_t kPlainFrames = 4;  // before and after each block: enough to average single disturbances out
+constexpr std::size_t kPlainFrames = 4;  // before and after each block; their median ignores single disturbances
+constexpr std::size_t kPassFrames = 3;   // at least so many frames are taken apart into passes
 
 double meanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -33,6 +36,7 @@ class Measurement {
  public:
   Measurement(RasterDevice& device, const ImageSettings& image, const CostRequest& request)
       : software_(device.info().software),
+        bounces_(request.technique.bounces),
         snapshots_(request.snapshots),
         sequence_(device, request.technique, image.widthPx, image.heightPx, 1),
         plain_(device, plainTechnique(request.technique), image.widthPx, image.heightPx, 1) {
@@ -42,12 +46,14 @@ class Measurement {
   void measure(benchmark::State& state) {
     std::vector<double> frames;
     std::size_t next = 1;
-    const double plainBefore = measurePlain();
+    std::vector<double> plainFrames;
+    measurePlain(plainFrames);
     for (auto iteration : state) {
       frames.push_back(renderMs(sequence_, *snapshots_[next++]));
       state.SetIterationTime(frames.back() * 1e-3);
     }
-    const double plainMs = 0.5 * (plainBefore + measurePlain());
+    measurePlain(plainFrames);
+    const double plainMs = median(plainFrames);
     frameMs_.push_back(meanOf(frames));
     plainMs_.push_back(plainMs);
     ratios_.push_back(frameMs_.back() / plainMs);
@@ -91,7 +97,8 @@ class Measurement {
       facesPerFrame_ +=
           static_cast<double>(sequence_.renderFrame(*snapshots_[i]).counters.facesCaptured) / frameCount();
     sequence_.finish();
-    measurePlain();
+    std::vector<double> notCounted;
+    measurePlain(notCounted);
   }
 
   // Software renderers draw while the calls return: wall time up to the idle device. On a GPU timer queries leave the
@@ -104,28 +111,60 @@ class Measurement {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 
-  double measurePlain() {
+  void measurePlain(std::vector<double>& frames) {
     const std::size_t block = snapshots_.size() - 1;
-    std::vector<double> frames;
     for (std::size_t i = 0; i < kPlainFrames; ++i) frames.push_back(renderMs(plain_, *snapshots_[1 + i % block]));
-    return meanOf(frames);
   }
 
+  // Means over a block, because policies spread their work over it; medians over blocks.
   void addPassTimes(CostResult& cost) {
+    const std::size_t block = snapshots_.size() - 1;
+    std::vector<std::vector<double>> captureMs(static_cast<std::size_t>(bounces_));
+    std::vector<double> finalMs;
+    for (std::size_t frames = 0; frames < kPassFrames; frames += block) {
+      const PassTimes mean = measurePasses();
+      for (std::size_t b = 0; b < captureMs.size(); ++b) captureMs[b].push_back(mean.captureMs[b]);
+      finalMs.push_back(mean.finalMs);
+    }
+    for (std::vector<double>& iteration : captureMs) cost.captureMs.push_back(median(iteration));
+    cost.finalMs = median(finalMs);
+  }
+
+  PassTimes measurePasses() {
+    PassTimes mean;
+    mean.captureMs.resize(static_cast<std::size_t>(bounces_), 0.0);
     for (std::size_t i = 1; i < snapshots_.size(); ++i) {
       const PassTimes passes = sequence_.renderFrameTimed(*snapshots_[i]);
-      cost.captureMs.resize(std::max(cost.captureMs.size(), passes.captureMs.size()), 0.0);
-      for (std::size_t b = 0; b < passes.captureMs.size(); ++b) cost.captureMs[b] += passes.captureMs[b] / frameCount();
-      cost.finalMs += passes.finalMs / frameCount();
+      for (std::size_t b = 0; b < passes.captureMs.size(); ++b) mean.captureMs[b] += passes.captureMs[b] / frameCount();
+      mean.finalMs += passes.finalMs / frameCount();
     }
+    return mean;
   }
 
   bool software_;
+  int bounces_;
   const Snapshots& snapshots_;
   RasterSequence sequence_, plain_;
   double facesPerFrame_ = 0;
   std::vector<double> frameMs_, plainMs_, ratios_;  // one a repetition
 };
+
+// Google Benchmark takes its flags' defaults from the environment, where users keep them for other programs; each of
+// these would change what is measured or where it is written.
+void fixFlags() {
+  std::array<std::string, 8> arguments = {"probebench",
+                                          "--benchmark_enable_random_interleaving=false",
+                                          "--benchmark_filter=all",
+                                          "--benchmark_list_tests=false",
+                                          "--benchmark_out=",
+                                          "--benchmark_perf_counters=",
+                                          "--benchmark_display_aggregates_only=false",
+                                          "--benchmark_report_aggregates_only=false"};
+  std::array<char*, 9> pointers{};
+  std::ranges::transform(arguments, pointers.begin(), [](std::string& argument) { return argument.data(); });
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, pointers.data());
+}
 
 // Runs the registered benchmarks. Google Benchmark does not expect exceptions: the first is kept, and what comes after
 // it is skipped.
@@ -140,9 +179,11 @@ class CostSession {
     std::ostringstream json;
     benchmark::JSONReporter reporter;
     reporter.SetOutputStream(&json);
-    benchmark::RunSpecifiedBenchmarks(&reporter);
+    benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, "all");
     benchmark::ClearRegisteredBenchmarks();
     if (failure_) std::rethrow_exception(failure_);
+    if (results_.size() != requests_.size())
+      throwEnvironmentError("Google Benchmark ran {} of {} cost measurements", results_.size(), requests_.size());
     return {std::move(results_), json.str()};
   }
 
@@ -225,6 +266,7 @@ RenderCount modelRenders(const Technique& technique, const Snapshots& snapshots)
 CostRun measureCosts(RasterDevice& device, const ImageSettings& image, const std::vector<CostRequest>& requests,
                      int repetitions, const std::map<std::string, std::string>& context,
                      const std::function<void()>& finished) {
+  fixFlags();
   for (const auto& [key, value] : context) benchmark::AddCustomContext(key, value);
   return CostSession(device, image, requests, repetitions, finished).run();
 }

@@ -256,7 +256,9 @@ std::string sectionText(const Section& section) {
 constexpr char kLegend[] =
     "Errors are against the reference; `mask` is the pixels of reflective and refractive objects. `~` marks cells that "
     "are not clear of the reference's own noise (relMSE below 10 times its floor). Costs are medians with their 95 % "
-    "interval; `x plain` is relative to a frame of the same scene and size without captures. A render is one view of "
+    "interval, of frames with one sample a pixel; `x plain` is relative to a frame of the same scene and size without "
+    "captures; times by pass come from frames that were taken apart, which costs some of their overlap. A render is "
+    "one view of "
     "the scene, a cube face or the final image; N probes, B bounce iterations. Face age counts frames since the "
     "capture.\n\n";
 

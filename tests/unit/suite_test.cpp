@@ -26,7 +26,7 @@ std::string messageOf(const std::string& text) {
   return "no error";
 }
 
-TEST(Suite, OfTheDesign_IsReadWhole) {
+TEST(Suite, WithEveryKey_IsReadWhole) {
   const Suite suite = parse(R"(
 schema = 1
 name = "all"
