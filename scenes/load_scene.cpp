@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -71,7 +72,15 @@ void makeMirrors(Scene& scene, const std::string& nodeName, const std::string& r
   throwInputError("scene '{}': mirror wants a node with a mesh, {}", reference, unknownMessage(nodeName, names));
 }
 
+// The names of built-in scenes are easily written without their prefix.
+void checkFileIsMeant(const std::string& path, const std::string& reference) {
+  const bool isBuiltin = std::ranges::find(builtinScenes(), path, &BuiltinScene::name) != builtinScenes().end();
+  if (isBuiltin && !std::filesystem::exists(path))
+    throwInputError("scene '{}': there is no such file; did you mean '{}{}'?", reference, kBuiltinPrefix, reference);
+}
+
 Scene loadFile(Spec spec, const std::string& reference, const std::optional<Environment>& environment) {
+  checkFileIsMeant(spec.name, reference);
   const std::optional<std::string> mirror = takeParameter(spec, "mirror");
   const std::vector<std::string> known = {"mirror", "environment"};
   if (!spec.parameters.empty())

@@ -60,6 +60,8 @@ TEST(SceneReference, ThatIsWrong_IsRefusedNamingTheValue) {
       {"", "name"},
       {"/nonexistent/scene.glb", "/nonexistent/scene.glb"},
       {PROBEBENCH_SOURCE_DIR "/tests", "/tests"},
+      {"mirrors", "did you mean 'builtin:mirrors'?"},
+      {"mirrors?count=3", "did you mean 'builtin:mirrors?count=3'?"},
       {"builtin:miror", "nearest is 'mirrors'"},
       {odd + "?mirror=triangel", "nearest is 'triangle'"},
       {odd + "?miror=all", "nearest is 'mirror'"},
