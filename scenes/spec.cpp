@@ -26,6 +26,15 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// Names beyond the twentieth are only counted.
+std::string listOf(std::span<const std::string> names) {
+  constexpr std::size_t kMostShown = 20;
+  const auto shown = names.first(std::min(names.size(), kMostShown));
+  std::string text;
+  for (const std::string& name : shown) text += fmt::format("{}'{}'", text.empty() ? "" : ", ", name);
+  return shown.size() == names.size() ? text : fmt::format("{} and {} more", text, names.size() - shown.size());
+}
+
 }  // namespace
 
 Spec parseSpec(std::string_view text) {
@@ -126,7 +135,10 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 
 std::string unknownMessage(std::string_view word, std::span<const std::string> candidates) {
   if (candidates.empty()) return fmt::format("'{}' is not known here; none is", word);
-  return fmt::format("'{}' is not known; nearest is '{}'", word, nearest(word, candidates));
+  const std::string best = nearest(word, candidates);
+  if (editDistance(word, best) > std::max<std::size_t>(2, word.size() / 2))
+    return fmt::format("'{}' is not known; known are {}", word, listOf(candidates));
+  return fmt::format("'{}' is not known; nearest is '{}'", word, best);
 }
 
 }  // namespace pb

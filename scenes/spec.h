@@ -32,7 +32,7 @@ class SpecReader {
   std::string text(std::string_view key, std::string otherwise);
   std::optional<std::string> optionalText(std::string_view key);
 
-  // Throws an input Error naming the first parameter that was never read and the nearest known key.
+  // Throws an input Error naming the first parameter that was never read, as unknownMessage() does.
   void finish() const;
 
  private:
@@ -51,7 +51,8 @@ std::optional<double> parseNumber(std::string_view text);
 // The candidate with the smallest edit distance to `word` (ties: the first), "" if there are none.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
-// "'resolutoin' is not known; nearest is 'resolution'"; used in every unknown-key message.
+// "'resolutoin' is not known; nearest is 'resolution'", or "...; known are 'a', 'b'" where none is near; used in every
+// unknown-key message.
 std::string unknownMessage(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace pb

@@ -50,6 +50,14 @@ TEST(Nearest, IsTheSmallestEditDistance) {
   EXPECT_EQ(nearest("bounce", words), "bounces");
 }
 
+TEST(UnknownMessage, NamesTheNearestWordOnlyIfItIsNear) {
+  const std::vector<std::string> words = {"refresh", "resolution", "bounces"};
+  EXPECT_EQ(unknownMessage("bonces", words), "'bonces' is not known; nearest is 'bounces'");
+  EXPECT_EQ(unknownMessage("glossiness", words),
+            "'glossiness' is not known; known are 'refresh', 'resolution', 'bounces'");
+  EXPECT_THAT(unknownMessage("glossiness", std::vector<std::string>(25, "x")), testing::EndsWith("'x' and 5 more"));
+}
+
 TEST(ParseNumber, AcceptsOnlyWholeFiniteNumbers) {
   EXPECT_EQ(parseNumber("1e-5"), 1e-5);
   for (const char* text : {"", "nan", "inf", "1.0.0", "1 ", "0x10"}) EXPECT_EQ(parseNumber(text), std::nullopt) << text;
