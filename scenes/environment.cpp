@@ -120,6 +120,11 @@ glm::vec4 resampledTexel(const ImageRgba& image, int face, int x, int y, int fac
 
 std::vector<ImageRgba> loadEquirectangular(const std::string& path, std::vector<std::string>& warnings) {
   const ImageRgba image = readRadiance(path, warnings);
+  if (image.width() != 2 * image.height())
+    warnings.push_back(
+        fmt::format("environment '{}' is stretched: it has {} x {} pixels, equirectangular images are "
+                    "twice as wide as high",
+                    path, image.width(), image.height()));
   const int wanted = faceSizeFor(image.width());
   if (wanted > kMaxFaceSize)
     warnings.push_back(fmt::format("environment '{}' is averaged to cube faces of {} texels; its {} columns have more",

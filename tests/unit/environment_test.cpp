@@ -136,6 +136,11 @@ TEST_F(EnvironmentFile, BadValuesAreRepaired_WithWarnings) {
     }
 }
 
+TEST_F(EnvironmentFile, ThatIsNotTwiceAsWideAsHigh_IsStretchedWithAWarning) {
+  load(Image(8, 8, glm::vec3(1.0f)));
+  EXPECT_THAT(warnings_, ::testing::ElementsAre(HasSubstr("8 x 8")));
+}
+
 TEST_F(EnvironmentFile, SixImages_AreTheFacesInGlOrder) {
   const char* names[] = {"px", "nx", "py", "ny", "pz", "nz"};
   for (int f = 0; f < 6; ++f)
