@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "bench/hash.h"
 #include "bench/version.h"
 
@@ -18,6 +21,16 @@ std::vector<std::pair<std::string, std::string>> settingsOf(const Suite& suite) 
           {"reference spp", fmt::format("{} a primary sample", reference.spp)},
           {"reference max_noise", reference.maxNoise ? fmt::format("{:g}", *reference.maxNoise) : "none"},
           {"cost repetitions", std::to_string(suite.cost.repetitions)}};
+}
+
+// Mixes in everything that a sequence renders, so that an animation that was edited anywhere on the way is seen.
+void mixContent(std::uint64_t& hash, const std::shared_ptr<const Scene>& scene, const SuiteScene& chosen,
+                double aspect) {
+  constexpr std::uint64_t kPrime = 0x100000001b3;  // of FNV-1a
+  const bool moves = scene->durationSeconds > 0.0;
+  for (int frame = moves ? std::max(chosen.startFrame(), 0) : chosen.frames.back(); frame <= chosen.frames.back();
+       ++frame)
+    hash = (hash * kPrime) ^ contentHash(*makeSnapshot(scene, frame, chosen.camera, aspect));
 }
 
 }  // namespace
@@ -37,11 +50,10 @@ Provenance makeProvenance(const Suite& suite, const Scenes& scenes, const GlInfo
   provenance.libraries = libraryVersions();
   provenance.settings = settingsOf(suite);
   provenance.seed = ReferenceSettings().seed;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const SuiteScene& scene = suite.scenes[i];
-    const auto snapshot = makeSnapshot(scenes[i], scene.frames.front(), scene.camera, suite.image.aspect());
-    provenance.sceneHashes[scene.name] = fmt::format("{:016x}", contentHash(*snapshot));
-  }
+  std::map<std::string, std::uint64_t> contents;  // a scene may stand there with several cameras
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    mixContent(contents[suite.scenes[i].name], scenes[i], suite.scenes[i], suite.image.aspect());
+  for (const auto& [scene, hash] : contents) provenance.sceneHashes[scene] = fmt::format("{:016x}", hash);
   return provenance;
 }
 

@@ -31,7 +31,7 @@ struct Provenance {
   int threads = 0;
   std::string glBackend, glRenderer, glVersion;
   std::map<std::string, std::string> libraries;    // name -> version
-  std::map<std::string, std::string> sceneHashes;  // scene reference -> content hash of its first frame
+  std::map<std::string, std::string> sceneHashes;  // scene reference -> content hash of its rendered frames
   // Image size, samples, reference depth and noise, ... as the reader should see them: name -> value, in print order.
   std::vector<std::pair<std::string, std::string>> settings;
   std::uint64_t seed = 0;
