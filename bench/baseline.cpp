@@ -105,6 +105,9 @@ void requireBlessable(const Results& run, const std::string& reason) {
     throwInputError("a blessing needs a reason, got '{}'", reason);
   if (run.cells.empty())
     throwInputError("a run without cells can't become a baseline, suite '{}'", run.provenance.suiteName);
+  if (run.tolerance.empty())
+    throwInputError("a run without tolerances can't become a baseline, suite '{}' has no [tolerance]",
+                    run.provenance.suiteName);
   if (run.provenance.controlOutcome != kControlPassed)
     throwInputError("a run whose control did not pass can't become a baseline, its control: {}",
                     run.provenance.controlOutcome);

@@ -443,6 +443,13 @@ TEST_F(Bless, RefusesAFailedControlAndAnEmptyRun) {
   EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
+TEST_F(Bless, RefusesASuiteWithoutTolerances) {
+  Results run = samples::makeResults();
+  run.tolerance.clear();
+  EXPECT_THAT(messageOf([&] { bless(run, path_, "why", true); }), HasSubstr("no [tolerance]"));
+  EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
 TEST_F(Bless, RefusesAnotherDriverUnlessForced) {
   Results run = samples::makeResults();
   bless(run, path_, "first", false);
