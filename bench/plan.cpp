@@ -37,6 +37,14 @@ std::regex compile(const std::string& expression) {
   }
 }
 
+// Cells are told apart by their keys.
+void requireDistinct(const Suite& suite, const std::vector<PlannedSequence>& sequences) {
+  std::set<std::string> keys;
+  for (const PlannedSequence& sequence : sequences)
+    if (const std::string key = makeCell(suite, sequence, 0).sequenceKey(); !keys.insert(key).second)
+      throwInputError("a scene or an axis value may be given once, suite '{}' comes to '{}' twice", suite.name, key);
+}
+
 void keepOnly(const Suite& suite, const std::string& expression, std::vector<PlannedSequence>& sequences) {
   const std::regex regex = compile(expression);
   for (PlannedSequence& sequence : sequences)
@@ -82,6 +90,7 @@ Plan makePlan(const Suite& suite, const PlanFilter& filter) {
   for (std::size_t scene = 0; scene < suite.scenes.size(); ++scene)
     for (const Technique& technique : techniques)
       plan.sequences.push_back({scene, technique, suite.scenes[scene].frames});
+  requireDistinct(suite, plan.sequences);
   if (filter.only) keepOnly(suite, *filter.only, plan.sequences);
   keepShard(filter.shard, plan.sequences);
   return plan;

@@ -37,7 +37,8 @@ struct PlanFilter {
   Shard shard;
 };
 
-// Throws an input Error for an invalid expression, and when nothing is left or the grid is absurdly large.
+// Throws an input Error for an invalid expression, for a scene or an axis value that stands twice, and when nothing is
+// left or the grid is absurdly large.
 Plan makePlan(const Suite& suite, const PlanFilter& filter = {});
 
 // A cell as results name it, with nothing measured yet.

@@ -45,6 +45,15 @@ TEST(Plan, WithoutGrid_IsTheBaseTechniqueAlone) {
   EXPECT_EQ(plan.sequences[0].technique.bounces, 7);
 }
 
+TEST(Plan, WithASceneOrAValueTwice_IsRefused) {
+  Suite sceneTwice = suiteOfTwo();
+  sceneTwice.scenes[1].name = "a";
+  EXPECT_THROW(makePlan(sceneTwice), Error);
+  Suite valueTwice = suiteOfTwo();
+  valueTwice.grid[0].second = {"64", "64"};
+  EXPECT_THROW(makePlan(valueTwice), Error);
+}
+
 TEST(Plan, Only_KeepsMatchingCells) {
   const Plan plan = makePlan(suiteOfTwo(), {.only = "frame=2 .*bounces=3", .shard = {}});
   ASSERT_EQ(plan.sequences.size(), 2u);
