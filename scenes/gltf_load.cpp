@@ -86,7 +86,7 @@ class SceneBuilder {
   }
 
   void addNode(std::size_t n, int parent) {
-    Node node = gltf::readNode(document_, n);
+    Node node = gltf::readNode(document_, n, scene_.warnings);
     node.parent = parent;
     sceneNodes_[n] = static_cast<int>(scene_.nodes.size());
     scene_.nodes.push_back(std::move(node));

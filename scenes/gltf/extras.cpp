@@ -8,6 +8,7 @@
 #include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/image_io.h"
+#include "scenes/spec.h"
 
 namespace pb::gltf {
 namespace {
@@ -164,12 +165,17 @@ bool readSceneExtras(const Document& document, const json& extras, Scene& scene)
   return true;
 }
 
-std::optional<ProbeSettings> readProbeExtras(const json& extras) {
+std::optional<ProbeSettings> readProbeExtras(const json& extras, const std::string& node,
+                                             std::vector<std::string>& warnings) {
   const std::string place = "extras.probe";
   if (!extras.is_object() || !extras.contains("probe")) return std::nullopt;
   const json& probe = extras["probe"];
   if (probe.is_boolean()) return ProbeSettings{.enabled = probe, .position = {}};
   if (!probe.is_object()) throwInputError("{} wants true, false or an object, got {}", place, probe.dump());
+  const std::vector<std::string> known = {"enabled", "position"};
+  for (const auto& [key, value] : probe.items())
+    if (std::ranges::find(known, key) == known.end())
+      warnings.push_back(fmt::format("{}: a member of {} is ignored: {}", node, place, unknownMessage(key, known)));
   ProbeSettings settings;
   const json enabled = probe.value("enabled", json(true));
   if (!enabled.is_boolean()) throwInputError("{}/enabled wants true or false, got {}", place, enabled.dump());

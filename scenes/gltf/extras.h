@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scenes/gltf/document.h"
 #include "scenes/scene.h"
@@ -17,8 +18,10 @@ namespace pb::gltf {
 // Sets what the extras of a glTF scene say; returns whether that included an environment.
 bool readSceneExtras(const Document& document, const nlohmann::json& extras, Scene& scene);
 
-// nodes[].extras.probe: true, false or {"enabled": ..., "position": [x, y, z]}.
-std::optional<ProbeSettings> readProbeExtras(const nlohmann::json& extras);
+// nodes[].extras.probe: true, false or {"enabled": ..., "position": [x, y, z]}. Warnings about other members name the
+// node.
+std::optional<ProbeSettings> readProbeExtras(const nlohmann::json& extras, const std::string& node,
+                                             std::vector<std::string>& warnings);
 
 // Adds bytes to the file and returns their buffer view.
 using AddBufferView = std::function<int(std::string_view bytes)>;

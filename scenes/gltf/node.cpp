@@ -62,13 +62,14 @@ std::string placeOfNode(const Document& document, std::size_t node) {
   return "node " + label(document.model.nodes[node].name, node);
 }
 
-Node readNode(const Document& document, std::size_t n) {
-  return atPlace(placeOfNode(document, n), [&] {
+Node readNode(const Document& document, std::size_t n, std::vector<std::string>& warnings) {
+  const std::string place = placeOfNode(document, n);
+  return atPlace(place, [&] {
     Node node;
     node.name = nameOf(document, n);
     readTransform(document.model.nodes[n], node);
     const nlohmann::json& json = document.json["nodes"][n];
-    if (json.contains("extras")) node.probe = readProbeExtras(json["extras"]);
+    if (json.contains("extras")) node.probe = readProbeExtras(json["extras"], place, warnings);
     return node;
   });
 }

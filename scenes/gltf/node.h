@@ -15,7 +15,7 @@ namespace pb::gltf {
 std::string placeOfNode(const Document& document, std::size_t node);
 
 // The node's name, transform and probe; its parent is left to the caller.
-Node readNode(const Document& document, std::size_t node);
+Node readNode(const Document& document, std::size_t node, std::vector<std::string>& warnings);
 
 // What stands at a node; `sceneNode` is the node's index in the scene. nullopt, with a warning, for orthographic
 // cameras.

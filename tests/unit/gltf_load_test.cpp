@@ -384,6 +384,14 @@ TEST(GltfExtras, Probe_IsMovedOrSwitchedOff) {
   EXPECT_THAT(probesWith({{"enabled", false}}), IsEmpty());
 }
 
+TEST(GltfExtras, UnknownMembersOfAProbe_AreIgnoredWithAWarning) {
+  GltfFile file;
+  file.json["nodes"][0]["name"] = "ball";
+  file.json["nodes"][0]["extras"] = {{"probe", {{"postion", {0, 0, 9}}}}};
+  EXPECT_THAT(file.load().warnings, Contains("node 'ball': a member of extras.probe is ignored: 'postion' is not "
+                                             "known; nearest is 'position'"));
+}
+
 TEST(GltfExtras, OfTheCubeCameraBenchmark_SetSkyAmbientAndNearPlane) {
   GltfFile file;
   file.json["scenes"][0]["extras"] = json::parse(R"({"ambientRadiance": 0.25, "cubeCamera": {"near": 0.2},
