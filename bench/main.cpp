@@ -1,15 +1,18 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "bench/commands/commands.h"
 #include "bench/interrupt.h"
 #include "bench/version.h"
 #include "scenes/error.h"
+#include "scenes/spec.h"
 
 namespace {
 
@@ -33,6 +36,17 @@ int perform(const pb::Action& action) {
   }
 }
 
+// Words of the command line that nothing takes, in their order.
+std::string sentenceOf(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  if (!app.get_subcommands().empty() || words.empty() || words.front().starts_with('-'))
+    return fmt::format("not expected on the command line: {}", fmt::join(words, " "));
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+  return "command " + pb::unknownMessage(words.front(), commands);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -45,6 +59,8 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
     return app.exit(request);
+  } catch (const CLI::ExtrasError&) {
+    return fail(sentenceOf(app) + "; see probebench --help", pb::Failure::input);
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + "; see probebench --help", pb::Failure::input);
   }

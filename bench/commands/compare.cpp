@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "bench/commands/commands.h"
 #include "bench/metrics/metrics.h"
@@ -13,6 +17,9 @@
 
 namespace pb {
 namespace {
+
+const std::map<std::string, ToneMapper> kToneMappers = {
+    {"aces", ToneMapper::aces}, {"hable", ToneMapper::hable}, {"reinhard", ToneMapper::reinhard}};
 
 struct CompareOptions {
   std::string reference, test, mask, heatmap;
@@ -43,6 +50,8 @@ std::string printText(const nlohmann::ordered_json& metrics) {
 }
 
 int compare(const CompareOptions& options) {
+  if (!options.heatmap.empty() && std::filesystem::path(options.heatmap).extension() != ".png")
+    throwInputError("--heatmap wants a file named .png, got '{}'", options.heatmap);
   const LoadedImage reference = readImage(options.reference);
   const LoadedImage test = readImage(options.test);
   if (reference.encoding != test.encoding)
@@ -59,10 +68,10 @@ int compare(const CompareOptions& options) {
   const MetricsResult result = computeMetrics(input, mask ? &*mask : nullptr);
   if (mask && !result.masked) throwInputError("mask '{}' has no pixel inside", options.mask);
 
-  const nlohmann::ordered_json metrics = metricsToJson(mask ? *result.masked : result.whole);
-  fmt::print("{}", options.json ? metrics.dump(2) + "\n" : printText(metrics));
   if (!options.heatmap.empty())
     writePngEncoded(options.heatmap, magma(input.srgb ? result.flipLdrMap : result.flipHdrMap));
+  const nlohmann::ordered_json metrics = metricsToJson(mask ? *result.masked : result.whole);
+  fmt::print("{}", options.json ? metrics.dump(2) + "\n" : printText(metrics));
   return 0;
 }
 
@@ -71,16 +80,15 @@ int compare(const CompareOptions& options) {
 void addCompareCommand(CLI::App& app, const GlobalOptions&, Action& action) {
   CLI::App* command = app.add_subcommand("compare", "image error of a test image against a reference");
   const auto options = std::make_shared<CompareOptions>();
-  const std::map<std::string, ToneMapper> toneMappers = {
-      {"aces", ToneMapper::aces}, {"hable", ToneMapper::hable}, {"reinhard", ToneMapper::reinhard}};
   command->add_option("REFERENCE", options->reference, "8-bit files are sRGB, float files linear")->required();
   command->add_option("TEST", options->test, "an image of the same size and kind")->required();
   command->add_option("--mask", options->mask, "average only where this image is white");
   command->add_flag("--json", options->json, "print one JSON object");
   command->add_option("--heatmap", options->heatmap, "write the FLIP map as a PNG");
   command->add_option("--ppd", options->flip.ppd, "pixels per degree of the observer")->capture_default_str();
-  command->add_option("--tone-mapper", options->flip.toneMapper, "of HDR-FLIP: aces, hable or reinhard")
-      ->transform(CLI::CheckedTransformer(toneMappers));
+  const auto setToneMapper = [options](const std::string& name) { options->flip.toneMapper = kToneMappers.at(name); };
+  command->add_option_function<std::string>("--tone-mapper", setToneMapper, "of HDR-FLIP")
+      ->check(CLI::IsMember(kToneMappers));
   command->add_option("--start-exposure", options->flip.startExposure, "of HDR-FLIP, stops");
   command->add_option("--stop-exposure", options->flip.stopExposure, "of HDR-FLIP, stops");
   command->add_option("--num-exposures", options->flip.numExposures, "of HDR-FLIP");

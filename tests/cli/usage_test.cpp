@@ -39,8 +39,10 @@ TEST_P(BadUsages, AreOneSentenceAndExitCode2) { expectRefused(runProgram(GetPara
 INSTANTIATE_TEST_SUITE_P(
     Table, BadUsages,
     testing::Values(
-        BadUsage{{}, "a command is wanted"}, BadUsage{{"rnu"}, "rnu"}, BadUsage{{"run"}, "SUITE is required"},
-        BadUsage{{"run", "quick", "--treads", "1"}, "--treads"},
+        BadUsage{{}, "a command is wanted"}, BadUsage{{"rnu"}, "command 'rnu' is not known; nearest is 'run'"},
+        BadUsage{{"init", "ok.gltf", "-o", "x.toml"}, "command 'init' is not known; "},
+        BadUsage{{"report", "absent", "more", "-x", "y"}, "not expected on the command line: more -x y;"},
+        BadUsage{{"run"}, "SUITE is required"}, BadUsage{{"run", "quick", "--treads", "1"}, "--treads"},
         BadUsage{{"run", "quick", "--threads", "-1"}, "--threads"}, BadUsage{{"run", "quick", "--gl", "glx"}, "glx"},
         BadUsage{{"run", "quikc"}, "'quikc' is not known; nearest is 'quick'"},
         BadUsage{{"run", "absent.toml"}, "absent.toml"},
@@ -71,7 +73,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadUsage{{"compare", kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.ref.png", "--ppd", "0"},
                  "pixels per degree"},
         BadUsage{{"compare", kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.ref.png", "--tone-mapper", "x"},
-                 "--tone-mapper"},
+                 "--tone-mapper: x not in {aces,hable,reinhard}"},
+        BadUsage{{"compare", kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.ref.png", "--tone-mapper", "1"},
+                 "--tone-mapper: 1 not in {aces,hable,reinhard}"},
+        BadUsage{{"compare", kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.ref.png", "--heatmap", "map.jpg"},
+                 "--heatmap wants a file named .png, got 'map.jpg'"},
         BadUsage{{"report", "absent"}, "absent"}, BadUsage{{"check", "absent", "--baseline", "b.json"}, "absent"},
         BadUsage{{"bless", "absent", "--baseline", "b.json", "--reason", "r"}, "absent"},
         BadUsage{{"merge", "absent", "-o", "m"}, "absent"}, BadUsage{{"axes"}, "subcommand is required"},
@@ -199,6 +205,11 @@ TEST(Compare, Heatmap_IsAPictureOfTheImagesSize) {
       {"compare", kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.test.png", "--heatmap", folder.file("map.png")});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(readImage(folder.file("map.png")).pixels.width(), readImage(kPairs + "ldr_lines.ref.png").pixels.width());
+}
+
+TEST(Compare, HeatmapThatCantBeWritten_IsSaidInsteadOfTheResult) {
+  const std::string image = kPairs + "ldr_lines.ref.png";
+  expectRefused(runProgram({"compare", image, image, "--heatmap", "/dev/null/m.png"}), 3, "/dev/null/m.png");
 }
 
 TEST(Scenes, ListAndExport_GiveAFileThatLoads) {
