@@ -152,14 +152,14 @@ class Measurement {
 // Google Benchmark takes its flags' defaults from the environment, where users keep them for other programs; each of
 // these would change what is measured or where it is written.
 void fixFlags() {
-  std::array<std::string, 8> arguments = {"probebench",
-                                          "--benchmark_enable_random_interleaving=false",
-                                          "--benchmark_filter=all",
-                                          "--benchmark_list_tests=false",
-                                          "--benchmark_out=",
-                                          "--benchmark_perf_counters=",
-                                          "--benchmark_display_aggregates_only=false",
-                                          "--benchmark_report_aggregates_only=false"};
+  static std::array<std::string, 8> arguments = {"probebench",
+                                                 "--benchmark_enable_random_interleaving=false",
+                                                 "--benchmark_filter=all",
+                                                 "--benchmark_list_tests=false",
+                                                 "--benchmark_out=",
+                                                 "--benchmark_perf_counters=",
+                                                 "--benchmark_display_aggregates_only=false",
+                                                 "--benchmark_report_aggregates_only=false"};
   std::array<char*, 9> pointers{};
   std::ranges::transform(arguments, pointers.begin(), [](std::string& argument) { return argument.data(); });
   int count = static_cast<int>(arguments.size());

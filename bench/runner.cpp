@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "bench/axes.h"
 #include "bench/cost.h"
@@ -86,7 +87,7 @@ class Runner {
     RunOutcome outcome;
     outcome.cells = orderedCells();
     if (c_.suite.cost.repetitions > 0) outcome.benchmarkJson = measureCost(outcome.cells);
-    outcome.noisyCells = noisyCells_;
+    outcome.noisyReferences = noisyReferences(outcome.cells);
     return outcome;
   }
 
@@ -153,20 +154,12 @@ class Runner {
       truths[frame] = maker.make(snapshot(scene, frame), suiteScene(scene).exposure, warnings);
       for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
       warnings.clear();
-      noteNoise(scene, frame, truths[frame]->noise);
       writeExr((c_.directory.imagesFolder() / (frameName(scene, frame) + "-reference.exr")).string(),
                truths[frame]->mean);
       c_.progress.step();
     }
     c_.progress.end();
     return truths;
-  }
-
-  void noteNoise(std::size_t scene, int frame, double noise) {
-    const std::optional<double> limit = c_.suite.reference.maxNoise;
-    if (!limit || noise <= *limit) return;
-    noisyCells_.push_back(fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at {} samples",
-                                      *limit, suiteScene(scene).name, frame, noise, kMaxSpp));
   }
 
   void measureSequence(const PlannedSequence& sequence, const Truths& truths, TaskQueue& queue) {
@@ -225,6 +218,22 @@ class Runner {
     return cells;
   }
 
+  // From the cells, so that those of an earlier, interrupted run count too.
+  std::vector<std::string> noisyReferences(const std::vector<CellResult>& cells) const {
+    std::vector<std::string> noisy;
+    const std::optional<double> limit = c_.suite.reference.maxNoise;
+    if (!limit) return noisy;
+    std::set<std::tuple<std::string, std::string, int>> seen;  // the cells of a frame share its reference
+    for (const CellResult& cell : cells) {
+      const auto noise = std::ranges::find(cell.floor, "relmse", &MetricValues::value_type::first);
+      if (noise == cell.floor.end() || noise->second <= *limit) continue;
+      if (seen.emplace(cell.scene, cell.camera, cell.frame).second)
+        noisy.push_back(fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at {} samples",
+                                    *limit, cell.scene, cell.frame, noise->second, mostSpp(c_.suite.reference)));
+    }
+    return noisy;
+  }
+
   // All costs belong to one run of the machine: they are measured together, also after --resume.
   std::string measureCost(std::vector<CellResult>& cells) {
     std::vector<CostRequest> requests;
@@ -260,7 +269,6 @@ class Runner {
   const RunContext& c_;
   std::mutex mutex_;
   std::map<std::string, CellResult> finished_;  // by key
-  std::vector<std::string> noisyCells_;
 };
 
 }  // namespace

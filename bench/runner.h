@@ -32,9 +32,9 @@ struct RunContext {
 };
 
 struct RunOutcome {
-  std::vector<CellResult> cells;        // in the plan's order
-  std::string benchmarkJson;            // empty if no cost was measured
-  std::vector<std::string> noisyCells;  // references that missed max_noise: one sentence each
+  std::vector<CellResult> cells;             // in the plan's order
+  std::string benchmarkJson;                 // empty if no cost was measured
+  std::vector<std::string> noisyReferences;  // those that missed max_noise: one sentence each
 };
 
 // Throws Error(Failure::interrupted) at a cell boundary after an interrupt; what is done stands in the journal.

@@ -23,6 +23,12 @@ MetricValues computeFloor(const Image& mean, const Image& halfA, const Mask* mas
   return {{"mse", sums.mse}, {"relmse", sums.relmse}};
 }
 
+int mostSpp(const TruthSettings& settings) {
+  int spp = settings.spp;
+  while (2 * spp <= kMaxSpp) spp *= 2;
+  return spp;
+}
+
 std::shared_ptr<const Truth> TruthMaker::make(std::shared_ptr<const Snapshot> snapshot, double exposure,
                                               std::vector<std::string>& warnings) const {
   const ReferenceScene scene(snapshot);
@@ -56,7 +62,7 @@ ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapsho
   request.settings.depth = settings_.depth;
   request.settings.spp = settings_.spp;
   ReferenceImage image = obtain(request, scene, warnings);
-  while (settings_.maxNoise && noiseOf(image) > *settings_.maxNoise && 2 * request.settings.spp <= kMaxSpp) {
+  while (settings_.maxNoise && noiseOf(image) > *settings_.maxNoise && request.settings.spp < mostSpp(settings_)) {
     request.settings.spp *= 2;
     image = obtain(request, scene, warnings);
   }

@@ -25,6 +25,9 @@ struct Truth {
 // Noise floor of the mean of two independent halves, ((A-B)/2)^2, as "mse" and "relmse".
 MetricValues computeFloor(const Image& mean, const Image& halfA, const Mask* mask = nullptr);
 
+// Samples at which a reference that misses max_noise is given up: spp doubled as long as kMaxSpp allows.
+int mostSpp(const TruthSettings& settings);
+
 class TruthMaker {
  public:
   // `rasterIds` gives the raster's object ids of a snapshot; it is called on the thread that calls make().
@@ -35,7 +38,7 @@ class TruthMaker {
       : store_(store), image_(image), settings_(settings), rasterIds_(std::move(rasterIds)) {}
 
   // Takes the reference from the store or renders it and stores it, doubling the samples until the noise is at most
-  // max_noise or kMaxSpp is reached. `warnings` gets what went wrong with stored references.
+  // max_noise or mostSpp() is reached. `warnings` gets what went wrong with stored references.
   std::shared_ptr<const Truth> make(std::shared_ptr<const Snapshot> snapshot, double exposure,
                                     std::vector<std::string>& warnings) const;
 

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <vector>
@@ -17,22 +19,55 @@ struct MergeOptions {
   std::string output;
 };
 
-// Numbers of different suites, programs or drivers don't belong into one table.
+void requireOwnFolder(const MergeOptions& options) {
+  namespace fs = std::filesystem;
+  // With a file name behind it, "a" and "a/" are the same.
+  const auto canonical = [](const std::string& folder) { return fs::weakly_canonical(fs::path(folder) / "run.json"); };
+  for (const std::string& run : options.runs)
+    if (canonical(run) == canonical(options.output))
+      throwInputError("the joined run may not replace one of its parts, got '{}' as both", options.output);
+  if (fs::exists(fs::path(options.output) / "run.json"))
+    throwInputError("'{}' already holds a run, choose another -o", options.output);
+}
+
+void requirePassedControl(const Provenance& part, const std::string& run) {
+  if (part.controlOutcome != kControlPassed)
+    throwInputError("a run whose control did not pass can't be merged, that of '{}': {}", run, part.controlOutcome);
+}
+
+bool hasCosts(const Results& results) {
+  return std::ranges::any_of(results.cells, [](const CellResult& cell) { return cell.cost.has_value(); });
+}
+
+// Numbers of different suites, scenes, programs or drivers don't belong into one table.
 void requireSameCircumstances(const Provenance& a, const Provenance& b, const std::string& run) {
   if (a.suiteHash != b.suiteHash) throwInputError("merged runs must be of the same suite, '{}' is of another", run);
   if (a.toolVersion != b.toolVersion || a.gitHash != b.gitHash)
     throwInputError("merged runs must be of the same program, '{}' is of {} {}", run, b.toolVersion, b.gitHash);
   if (a.glRenderer != b.glRenderer || a.glVersion != b.glVersion)
     throwInputError("merged runs must be of the same GL driver, '{}' is of {} {}", run, b.glRenderer, b.glVersion);
+  for (const auto& [scene, hash] : b.sceneHashes)
+    if (const auto other = a.sceneHashes.find(scene); other != a.sceneHashes.end() && other->second != hash)
+      throwInputError("merged runs must be of the same scenes, '{}' has another '{}'", run, scene);
+}
+
+void requireSameMachine(const Provenance& a, const Provenance& b, const std::string& run) {
+  if (a.cpu != b.cpu || a.threads != b.threads)
+    throwInputError("merged costs must be of the same CPU and number of threads, '{}' is of {} with {}", run, b.cpu,
+                    b.threads);
 }
 
 int merge(const MergeOptions& options) {
+  requireOwnFolder(options);
   Results merged = readResults(options.runs.front());
+  requirePassedControl(merged.provenance, options.runs.front());
   std::set<std::string> keys;
   for (const CellResult& cell : merged.cells) keys.insert(cell.key());
   for (auto run = options.runs.begin() + 1; run != options.runs.end(); ++run) {
     const Results part = readResults(*run);
+    requirePassedControl(part.provenance, *run);
     requireSameCircumstances(merged.provenance, part.provenance, *run);
+    if (hasCosts(merged) || hasCosts(part)) requireSameMachine(merged.provenance, part.provenance, *run);
     for (const CellResult& cell : part.cells) {
       if (!keys.insert(cell.key()).second)
         throwInputError("cell '{}' of '{}' stands in another run too", cell.key(), *run);

@@ -62,9 +62,9 @@ int finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& sui
   directory.finish(results, outcome.benchmarkJson);
   fmt::print("{}", makeReport(results));
   fmt::print(stderr, "report: {}\n", (directory.folder() / "report.md").string());
-  if (outcome.noisyCells.empty()) return 0;
+  if (outcome.noisyReferences.empty()) return 0;
   throw Error(Failure::inconclusive, fmt::format("{} references are too noisy; the first: {}",
-                                                 outcome.noisyCells.size(), outcome.noisyCells.front()));
+                                                 outcome.noisyReferences.size(), outcome.noisyReferences.front()));
 }
 
 int run(const RunOptions& options, const GlobalOptions& globals) {
@@ -80,11 +80,12 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
 
   RasterDevice device(globals.backend());
   Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
-  RunDirectory directory(options.output.empty() ? "out/" + suite.name : options.output,
-                         {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
+  const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
   Progress progress;
   provenance.controlOutcome = passControl(device, progress);
-  const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
+  // Last, as it removes an earlier run.
+  RunDirectory directory(options.output.empty() ? "out/" + suite.name : options.output,
+                         {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
   const RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
   return finishRun(outcome, std::move(provenance), suite, directory);
 }

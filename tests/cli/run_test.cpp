@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -185,6 +187,46 @@ TEST(Run, Interrupted_KeepsFinishedCellsAndGoesOnWithResume) {
   EXPECT_EQ(workplace.cells("stopped"), workplace.cells("whole"));
 }
 
+// One level triangle of clear glass: every path that meets it chooses between the sky above and the ground below.
+constexpr const char* kGlassTriangle = R"({
+  "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+  "materials": [{"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AACAvwAAAAAAAIA/AACAPwAAAAAAAIA/AAAAAAAAAAAAAIC/"}],
+  "extensionsUsed": ["KHR_materials_transmission"]})";
+
+TEST(Run, WithANoisyReference_IsInconclusiveAlsoWhenResumed) {
+  std::string suite = kSmall;
+  suite.replace(suite.find("builtin:mirrors?count=2"), 23, "glass.gltf");
+  suite.insert(suite.find("cost ="), "reference = { spp = 600, max_noise = 1e-12 }\n");
+  const Workplace workplace(suite);
+  writeFileAtomically(workplace.path("glass.gltf"), kGlassTriangle);
+  const ProgramResult first = workplace.run("run");
+  EXPECT_EQ(first.exitCode, 4) << first.err;
+  EXPECT_THAT(first.err, HasSubstr("2 references are too noisy"));
+  EXPECT_THAT(first.err, HasSubstr("at 600 samples"));
+  const ProgramResult resumed = workplace.run("run", {"--resume"});
+  EXPECT_EQ(resumed.exitCode, 4) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("2 references are too noisy"));
+}
+
+TEST(Run, ThatCantStart_KeepsTheEarlierRun) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("run").exitCode, 0);
+  const char* variables[] = {"HOME", "XDG_CACHE_HOME"};
+  std::map<const char*, std::string> before;
+  for (const char* variable : variables) {
+    if (const char* value = std::getenv(variable)) before[variable] = value;
+    unsetenv(variable);
+  }
+  const ProgramResult result = runProgram({"run", workplace.path("suite.toml"), "--out", workplace.path("run")});
+  for (const auto& [variable, value] : before) setenv(variable, value.c_str(), 1);
+  EXPECT_EQ(result.exitCode, 3) << result.err;  // there is no folder for the references
+  EXPECT_EQ(workplace.cells("run").size(), 8u);
+}
+
 TEST(Run, ResumedWithOtherSettings_IsRefused) {
   const Workplace workplace;
   ASSERT_EQ(workplace.run("run").exitCode, 0);
@@ -199,19 +241,44 @@ TEST(Run, ShardsMerged_AreTheWhole) {
   ASSERT_EQ(workplace.run("a", {"--shard", "1/3"}).exitCode, 0);
   ASSERT_EQ(workplace.run("b", {"--shard", "2/3"}).exitCode, 0);
   ASSERT_EQ(workplace.run("c", {"--shard", "3/3"}).exitCode, 0);
-  const auto merge = [&](std::vector<std::string> parts) {
+  const auto merge = [&](std::vector<std::string> parts, const std::string& output) {
     std::vector<std::string> arguments = {"merge"};
     for (const std::string& part : parts) arguments.push_back(workplace.path(part));
-    arguments.insert(arguments.end(), {"-o", workplace.path("merged")});
+    arguments.insert(arguments.end(), {"-o", workplace.path(output)});
     return runProgram(arguments);
   };
-  const ProgramResult merged = merge({"a", "b", "c"});
+  const ProgramResult merged = merge({"a", "b", "c"}, "merged");
   EXPECT_EQ(merged.exitCode, 0) << merged.err;
   EXPECT_EQ(workplace.cells("merged"), workplace.cells("whole"));
 
-  const ProgramResult twice = merge({"a", "a"});
+  const ProgramResult twice = merge({"a", "a"}, "twice");
   EXPECT_EQ(twice.exitCode, 2);
   EXPECT_THAT(twice.err, HasSubstr("stands in another run too"));
+
+  const ProgramResult ontoPart = merge({"a", "b"}, "b/../a/");
+  EXPECT_EQ(ontoPart.exitCode, 2);
+  EXPECT_THAT(ontoPart.err, HasSubstr("may not replace one of its parts"));
+  const ProgramResult ontoRun = merge({"a", "b"}, "whole");
+  EXPECT_EQ(ontoRun.exitCode, 2);
+  EXPECT_THAT(ontoRun.err, HasSubstr("already holds a run"));
+  EXPECT_EQ(workplace.cells("whole").size(), 8u);
+
+  const Results b = readResults(workplace.path("b"));
+  const auto mergeWith = [&](const Results& changed) {
+    writeFileAtomically(workplace.path("b/results.json"), toJson(changed));
+    return merge({"a", "b"}, "changed").err;
+  };
+  Results changed = b;
+  changed.provenance.sceneHashes.begin()->second = "0";
+  EXPECT_THAT(mergeWith(changed), HasSubstr("must be of the same scenes"));
+  changed = b;
+  changed.provenance.controlOutcome = "failed";
+  EXPECT_THAT(mergeWith(changed), HasSubstr("whose control did not pass"));
+  changed = b;
+  changed.cells.front().cost = CostResult();
+  changed.provenance.threads += 1;
+  EXPECT_THAT(mergeWith(changed), HasSubstr("same CPU and number of threads"));
+  EXPECT_FALSE(fs::exists(workplace.path("changed")));
 }
 
 TEST(Gate, PassesTheBlessedRunAndFailsAnotherOne) {

@@ -69,5 +69,11 @@ TEST(Truth, FloorIsThatOfItsHalvesAndTheMaskThatOfTheBall) {
   EXPECT_NEAR(truth->maskFloor[0].second * inside, truth->floor[0].second * 256, 1e-9 * truth->floor[0].second * 256);
 }
 
+TEST(MostSpp, IsSppDoubledUpToTheLimit) {
+  EXPECT_EQ(mostSpp({.depth = {}, .spp = 16, .maxNoise = {}}), kMaxSpp);
+  EXPECT_EQ(mostSpp({.depth = {}, .spp = 100, .maxNoise = {}}), 800);
+  EXPECT_EQ(mostSpp({.depth = {}, .spp = 3000, .maxNoise = {}}), 3000);
+}
+
 }  // namespace
 }  // namespace pb
