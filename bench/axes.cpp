@@ -51,6 +51,29 @@ constexpr Choice<BounceOrder> kBounceOrders[] = {{"sequential", BounceOrder::seq
 constexpr Choice<TextureFilter> kTextureFilters[] = {{"exact", TextureFilter::exact},
                                                      {"hardware", TextureFilter::hardware}};
 
+constexpr Choice<Refraction> kRefractions[] = {{"one-interface", Refraction::oneInterface},
+                                               {"two-interface", Refraction::twoInterface},
+                                               {"cubemap-backface", Refraction::cubemapBackface},
+                                               {"thick-slab", Refraction::thickSlab}};
+constexpr Choice<Dispersion> kDispersions[] = {
+    {"off", Dispersion::off}, {"rgb-offset", Dispersion::rgbOffset}, {"per-channel-ior", Dispersion::perChannelIor}};
+constexpr Choice<ProbeFilter> kProbeFilters[] = {
+    {"none", ProbeFilter::none}, {"box-mips", ProbeFilter::boxMips}, {"ggx-prefiltered", ProbeFilter::ggxPrefiltered}};
+constexpr Choice<GeometryTerm> kGeometryTerms[] = {{"smith-correlated", GeometryTerm::smithCorrelated},
+                                                   {"one", GeometryTerm::one},
+                                                   {"smith-k", GeometryTerm::smithK},
+                                                   {"cook-torrance", GeometryTerm::cookTorrance}};
+constexpr Choice<Coats> kCoats[] = {
+    {"nearest-probe", Coats::nearestProbe}, {"environment", Coats::environment}, {"none", Coats::none}};
+
+// Refuses unknown laws and parameters with the law's own message.
+bool parseFresnel(std::string_view text, Technique& technique) {
+  const Spec spec = parseSpec(text);
+  fresnelLaw(spec);
+  technique.fresnel = spec;
+  return true;
+}
+
 // Parser and printer of a member that is one of a few named values.
 template <auto Member, const auto& Choices>
 bool parseChoice(std::string_view text, Technique& technique) {
@@ -102,6 +125,25 @@ std::vector<Axis> makeAxisTable() {
        "exact: texture filtering as the reference computes it; hardware: the driver's own samplers",
        "hardware: every engine", parseChoice<&Technique::textureFilter, kTextureFilters>,
        printChoice<&Technique::textureFilter, kTextureFilters>},
+      {"refraction", "one-interface | two-interface | cubemap-backface | thick-slab",
+       "where a ray that enters a transmitting object leaves it, and in which direction",
+       "one-interface: course documents; two-interface: Wyman 2005; thick-slab: glTF viewers",
+       parseChoice<&Technique::refraction, kRefractions>, printChoice<&Technique::refraction, kRefractions>},
+      {"fresnel", "exact | schlick | ratio?bias=B&scale=S&power=P", "reflectance of interfaces by angle",
+       "schlick: every engine; ratio: bias + scale (1 - cos)^power, course documents", parseFresnel,
+       [](const Technique& t) { return printSpec(t.fresnel); }},
+      {"dispersion", "off | rgb-offset | per-channel-ior", "how refracted colours part",
+       "rgb-offset: course documents; per-channel-ior: glTF viewers", parseChoice<&Technique::dispersion, kDispersions>,
+       printChoice<&Technique::dispersion, kDispersions>},
+      {"filter", "none | box-mips | ggx-prefiltered", "what rough surfaces look up in their probe",
+       "box-mips: glGenerateMipmap; ggx-prefiltered: the split sum of Karis 2013",
+       parseChoice<&Technique::filter, kProbeFilters>, printChoice<&Technique::filter, kProbeFilters>},
+      {"geometry_term", "smith-correlated | one | smith-k | cook-torrance", "masking and shadowing of microfacets",
+       "smith-k: Unreal Engine 4; cook-torrance: course documents",
+       parseChoice<&Technique::geometryTerm, kGeometryTerms>, printChoice<&Technique::geometryTerm, kGeometryTerms>},
+      {"coats", "nearest-probe | environment | none",
+       "what dielectric coats of objects without a probe of their own reflect", "nearest-probe: every engine",
+       parseChoice<&Technique::coats, kCoats>, printChoice<&Technique::coats, kCoats>},
   };
 }
 

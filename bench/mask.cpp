@@ -7,7 +7,7 @@ namespace pb {
 std::vector<unsigned char> specularInstances(const Snapshot& snapshot) {
   std::vector<unsigned char> flags;
   for (const SnapshotInstance& instance : snapshot.instances)
-    flags.push_back(snapshot.materialOf(instance).isSpecularDominant() ? 1 : 0);
+    flags.push_back(snapshot.materialOf(instance).isSpecularDominant ? 1 : 0);
   return flags;
 }
 

@@ -53,12 +53,22 @@ EnvironmentSource environmentSource(const Environment& environment, TextureFilte
   return filter == TextureFilter::hardware ? EnvironmentSource::facesHardware : EnvironmentSource::faces;
 }
 
-GLuint Programs::surfaceShowingProbe(const SurfaceVariant& variant) {
-  return find(shaders::kSceneVert, shaders::kSceneFrag, "scene", definesOf(variant) + define("PROBE_LOOKUP"));
+std::string techniqueDefines(const Technique& technique) {
+  const glm::vec4 law = fresnelLaw(technique.fresnel);
+  return define("FRESNEL_LAW",
+                fmt::format("vec4({:#.9g}f, {:#.9g}f, {:#.9g}f, {:#.9g}f)", law.x, law.y, law.z, law.w)) +
+         define("GEOMETRY_TERM", fmt::format("{:.1f}", static_cast<double>(technique.geometryTerm)));
 }
 
-GLuint Programs::surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source) {
-  return find(shaders::kSceneVert, shaders::kSceneFrag, "scene", definesOf(variant) + definesOf(source));
+GLuint Programs::surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines) {
+  return find(shaders::kSceneVert, shaders::kSceneFrag, "scene",
+              definesOf(variant) + techniqueDefines + define("PROBE_LOOKUP"));
+}
+
+GLuint Programs::surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source,
+                                           const std::string& techniqueDefines) {
+  return find(shaders::kSceneVert, shaders::kSceneFrag, "scene",
+              definesOf(variant) + techniqueDefines + definesOf(source));
 }
 
 GLuint Programs::background(EnvironmentSource source) {

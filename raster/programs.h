@@ -39,13 +39,17 @@ struct SurfaceVariant {
   friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
 };
 
+// What the technique sets for the shading of all surfaces.
+std::string techniqueDefines(const Technique& technique);
+
 class Programs {
  public:
   explicit Programs(const gl::Functions& gl) : gl_(gl) {}
 
   // Names of GL programs, valid as long as this object. All throw an environment Error if the driver refuses.
-  GLuint surfaceShowingProbe(const SurfaceVariant& variant);
-  GLuint surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source);
+  GLuint surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines);
+  GLuint surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source,
+                                   const std::string& techniqueDefines);
   GLuint background(EnvironmentSource source);
   GLuint ids(const SurfaceVariant& variant);
 

@@ -26,8 +26,9 @@ std::size_t capturePass(const ProbeFace& f) { return 1 + static_cast<std::size_t
 gpu::PassConstants passConstants(const Snapshot& snapshot, const shading::View& view, int width, int height,
                                  float largestRadiance) {
   return {.view = withResolution(view, width),
-          .image = {static_cast<float>(width), static_cast<float>(height), largestRadiance,
-                    static_cast<float>(snapshot.lights.size())}};
+          .image = {static_cast<float>(width), static_cast<float>(height), largestRadiance, 0.0f},
+          .lights = {static_cast<float>(snapshot.lights.size()), static_cast<float>(snapshot.areaLights.size()), 0.0f,
+                     0.0f}};
 }
 
 // Faces that are ordered by probe, one group a probe.
@@ -96,11 +97,12 @@ RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& techniq
                            int samplesPerAxis_)
     : device(device_), technique(technique_), widthPx(widthPx_), heightPx(heightPx_), samplesPerAxis(samplesPerAxis_) {
   refreshPolicy(technique.refresh);  // refuses a bad one
+  fresnelLaw(technique.fresnel);
   if (technique.bounces < 1) throwInputError("a frame has at least one bounce iteration, got {}", technique.bounces);
   checkImageFits(device.limits, widthPx, heightPx, samplesPerAxis);
   checkProbesFit(device.limits, technique, 1, widthPx, heightPx, samplesPerAxis);
   device.context.makeCurrent();
-  scenePass.emplace(device, technique.textureFilter, isDynamic());
+  scenePass.emplace(device, technique);
   image.emplace(device.context, widthPx, heightPx, samplesPerAxis);
 }
 

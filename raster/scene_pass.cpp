@@ -28,6 +28,14 @@ bool cullsBackFaces(const Material& material) {
   return !material.doubleSided && material.constants.kind.x != shading::kSurfaceGlass;
 }
 
+// Replaces the buffer's contents, and the buffer if `count`, the number of values in it, changes.
+template <class T>
+void write(const gl::Functions& gl, const std::vector<T>& values, std::size_t& count, gl::Buffer& buffer) {
+  if (buffer.id() == 0 || count != values.size()) buffer = gl::Buffer(gl, values.size() * sizeof(T));
+  count = values.size();
+  buffer.write(0, gl::bytesOf(values));
+}
+
 }  // namespace
 
 // Sets the state of draws, leaving what is set already.
@@ -67,12 +75,8 @@ class ScenePass::Binder {
   bool culls_ = false;  // as beginPass() leaves it
 };
 
-ScenePass::ScenePass(RasterDevice::Impl& device, TextureFilter filter, bool useProbes)
-    : device_(device),
-      gl_(device.context.functions()),
-      filter_(filter),
-      useProbes_(useProbes),
-      noVertices_(gl::makeVertexArray(gl_)) {}
+ScenePass::ScenePass(RasterDevice::Impl& device, const Technique& technique)
+    : device_(device), gl_(device.context.functions()), technique_(technique), noVertices_(gl::makeVertexArray(gl_)) {}
 
 void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes) {
   snapshot_ = &snapshot;
@@ -84,6 +88,7 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   uploadPasses(passes);
   resources_->bindScene();
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLightBlock, lights_.id());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kAreaLightBlock, areaLights_.id());
 }
 
 void ScenePass::draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
@@ -124,20 +129,21 @@ bool ScenePass::drawsFit(const Snapshot& snapshot) const {
 // Sorted by what is dear to change. Nothing here may depend on addresses or GL names: the order decides which of two
 // coinciding surfaces is seen, and how many fragments pass.
 void ScenePass::buildDraws(const Snapshot& snapshot) {
-  const EnvironmentSource source = environmentSource(snapshot.scene->environment, filter_);
+  const std::string settings = techniqueDefines(technique_);
+  const EnvironmentSource source = environmentSource(snapshot.scene->environment, technique_.textureFilter);
   background_ = device_.programs.background(source);
   draws_.clear();
   for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
     const SnapshotInstance& instance = snapshot.instances[i];
-    const SurfaceVariant variant = resources_->variantOf(instance.material, *instance.mesh, filter_);
-    const bool hasProbe = useProbes_ && instance.probe >= 0;
+    const SurfaceVariant variant = resources_->variantOf(instance.material, *instance.mesh, technique_.textureFilter);
+    const bool hasProbe = technique_.probes == ProbeUse::dynamic && instance.probe >= 0;
     draws_.push_back({.variant = variant,
                       .material = instance.material,
                       .instance = i,
                       .source = instance.mesh,
                       .mesh = &resources_->mesh(instance.mesh),
-                      .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source),
-                      .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant) : 0,
+                      .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source, settings),
+                      .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, settings) : 0,
                       .cullsBackFaces = cullsBackFaces(snapshot.materialOf(instance))});
   }
   std::ranges::sort(draws_, {}, [](const Draw& d) { return std::tuple(d.variant, d.material, d.instance); });
@@ -153,11 +159,8 @@ void ScenePass::uploadInstances() {
 }
 
 void ScenePass::uploadLights() {
-  const std::vector<shading::Light>& lights = snapshot_->lights;
-  if (lights_.id() == 0 || lightCount_ != lights.size())
-    lights_ = gl::Buffer(gl_, lights.size() * sizeof(shading::Light));
-  lightCount_ = lights.size();
-  lights_.write(0, gl::bytesOf(lights));
+  write(gl_, snapshot_->lights, lightCount_, lights_);
+  write(gl_, snapshot_->areaLights, areaLightCount_, areaLights_);
 }
 
 void ScenePass::uploadPasses(const std::vector<gpu::PassConstants>& passes) {

@@ -19,8 +19,7 @@ inline constexpr int kNoProbe = -1;
 
 class ScenePass {
  public:
-  // Without `useProbes` every specular surface shows the environment.
-  ScenePass(RasterDevice::Impl& device, TextureFilter filter, bool useProbes);
+  ScenePass(RasterDevice::Impl& device, const Technique& technique);
 
   // Uploads what changes from frame to frame: transforms, lights and the views of the frame's passes.
   void beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes);
@@ -58,8 +57,7 @@ class ScenePass {
 
   RasterDevice::Impl& device_;
   const gl::Functions& gl_;
-  TextureFilter filter_;
-  bool useProbes_;
+  Technique technique_;
   std::shared_ptr<SceneResources> resources_;
   GLuint background_ = 0;
   gl::VertexArray noVertices_;
@@ -69,7 +67,9 @@ class ScenePass {
   UniformSlots<gpu::InstanceConstants> instanceSlots_;
   UniformSlots<gpu::PassConstants> passSlots_;
   std::size_t lightCount_ = 0;
+  std::size_t areaLightCount_ = 0;
   gl::Buffer lights_;
+  gl::Buffer areaLights_;
 };
 
 }  // namespace pb

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "scenes/dfg_table.h"
+
 namespace pb {
 namespace {
 
@@ -104,6 +106,7 @@ SceneResources::SceneResources(gl::Context& context, std::shared_ptr<const Scene
   uploadTextures();
   uploadMaterials(context);
   uploadEnvironment();
+  uploadDfgTable();
   context.check("uploading a scene's textures");
 }
 
@@ -132,6 +135,7 @@ void SceneResources::bindScene() const {
   constants_.bind(gpu::kSceneBlock, 0);
   gl_.BindTextureUnit(gpu::kEnvironmentUnit, environmentFaces_.id());
   gl_.BindTextureUnit(gpu::kEnvironmentCubeUnit, environmentCube_.id());
+  gl_.BindTextureUnit(gpu::kDfgUnit, dfgTable_.id());
 }
 
 void SceneResources::bindMaterial(int material) const {
@@ -185,6 +189,13 @@ void SceneResources::uploadEnvironment() {
     gl_.TextureSubImage3D(environmentFaces_.id(), 0, 0, 0, face, size, size, 1, GL_RGBA, GL_FLOAT,
                           environment.faces[static_cast<std::size_t>(face)].data());
   environmentCube_ = gl::makeCubeView(environmentFaces_, GL_RGBA32F);
+}
+
+void SceneResources::uploadDfgTable() {
+  const ImageRgba& texels = dfgTable(shading::kGeometrySmithCorrelated).levels.front();
+  dfgTable_ = gl::makeTexture(
+      gl_, {.target = GL_TEXTURE_2D, .format = GL_RGBA32F, .width = texels.width(), .height = texels.height()});
+  gl_.TextureSubImage2D(dfgTable_.id(), 0, 0, 0, texels.width(), texels.height(), GL_RGBA, GL_FLOAT, texels.data());
 }
 
 GLuint SceneResources::samplerFor(const glm::vec4& settings) {

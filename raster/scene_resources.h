@@ -51,6 +51,7 @@ class SceneResources {
   void uploadTextures();
   void uploadMaterials(gl::Context& context);
   void uploadEnvironment();
+  void uploadDfgTable();
   GLuint samplerFor(const glm::vec4& settings);
 
   const gl::Functions& gl_;
@@ -63,6 +64,7 @@ class SceneResources {
   UniformSlots<gpu::SceneConstants> constants_;
   gl::Texture environmentFaces_;
   gl::Texture environmentCube_;
+  gl::Texture dfgTable_;
 };
 
 }  // namespace pb

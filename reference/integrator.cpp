@@ -28,7 +28,8 @@ std::optional<Branch> chooseBranch(const shading::Surface& surface, const glm::v
                                    Sampler& sampler) {
   const float relativeIor = entering ? surface.ior : 1.0f / surface.ior;
   const float cosine = std::max(-glm::dot(surface.normal, d), 0.0f);
-  const shading::SpecularWeights weights = shading::specularWeights(surface, cosine, relativeIor);
+  const shading::SpecularWeights weights =
+      shading::specularWeights(surface, cosine, relativeIor, glm::vec4(shading::kFresnelExact, 0, 0, 0));
   const glm::vec3 refracted = shading::refractedDirection(d, surface.normal, relativeIor);
   const float reflection = luminance(weights.reflection);
   const float refraction = refracted == glm::vec3(0.0f) ? 0.0f : luminance(weights.refraction);
@@ -72,8 +73,8 @@ PathResult tracePath(const TracedScene& scene, const Ray& primary, float conePer
     }
     lengthMetres += hit->t * glm::length(ray.direction);
     const shading::Surface surface =
-        readSurface(content, scene.materialOf(*hit), interpolate(scene, *hit, d, conePerMetre * lengthMetres));
-    path.radiance += throughput * localRadiance(scene.snapshot, surface);
+        readSurface(scene.snapshot, scene.materialOf(*hit), interpolate(scene, *hit, d, conePerMetre * lengthMetres));
+    path.radiance += throughput * localRadiance(scene.snapshot, surface, -d);
 
     const std::optional<Branch> branch = chooseBranch(surface, d, hit->entering, sampler);
     if (!branch) return path;

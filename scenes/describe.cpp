@@ -61,7 +61,7 @@ std::string probes(const Scene& scene) {
   std::string lines;
   for (const Instance& instance : scene.instances) {
     const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
-    if (!material.isSpecularDominant()) continue;
+    if (!material.isSpecularDominant) continue;
     lines += fmt::format("reflective '{}', material '{}' ({}): {}\n", instance.name, material.name, reasonFor(material),
                          placeOf(scene.nodes[static_cast<std::size_t>(instance.node)].probe));
   }

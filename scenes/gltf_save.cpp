@@ -203,13 +203,13 @@ class Writer {
     if (c.kind.x == shading::kSurfaceUnlit) extension(result, "KHR_materials_unlit");
     if (c.kind.y != 1.5f) extension(result, "KHR_materials_ior")["ior"] = c.kind.y;
     if (c.factors.w > 0.0f) extension(result, "KHR_materials_transmission")["transmissionFactor"] = c.factors.w;
-    if (material.dispersion > 0.0f) extension(result, "KHR_materials_dispersion")["dispersion"] = material.dispersion;
-    if (material.specularFactor != 1.0f || material.specularColor != glm::vec3(1.0f))
-      extension(result, "KHR_materials_specular") = {{"specularFactor", material.specularFactor},
-                                                     {"specularColorFactor", arrayOf(material.specularColor, 3)}};
-    if (material.thickness > 0.0f || std::isfinite(material.attenuationDistance)) {
+    if (c.kind.w > 0.0f) extension(result, "KHR_materials_dispersion")["dispersion"] = c.kind.w;
+    if (c.specular != glm::vec4(1.0f))
+      extension(result, "KHR_materials_specular") = {{"specularFactor", c.specular.w},
+                                                     {"specularColorFactor", arrayOf(glm::vec3(c.specular), 3)}};
+    if (c.kind.z > 0.0f || std::isfinite(material.attenuationDistance)) {
       json& volume = extension(result, "KHR_materials_volume");
-      volume = {{"thicknessFactor", material.thickness}, {"attenuationColor", arrayOf(material.attenuationColor, 3)}};
+      volume = {{"thicknessFactor", c.kind.z}, {"attenuationColor", arrayOf(material.attenuationColor, 3)}};
       if (std::isfinite(material.attenuationDistance)) volume["attenuationDistance"] = material.attenuationDistance;
     }
   }

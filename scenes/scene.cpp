@@ -109,6 +109,9 @@ Material makeDiffuseMaterial(std::string name, glm::vec3 albedo) {
   c.emission = {0.0f, 0.0f, 0.0f, 1.0f};
   c.factors = {0.0f, 1.0f, 1.0f, 0.0f};
   c.kind = {shading::kSurfaceDiffuse, 1.5f, 0.0f, 0.0f};
+  c.specular = {1.0f, 1.0f, 1.0f, 0.0f};
+  c.absorption = c.conductorEta = c.conductorK = glm::vec4(0.0f);
+  c.alpha = {shading::kAlphaOpaque, 0.5f, 0.0f, 0.0f};
   c.baseColorSlot = c.metallicRoughnessSlot = c.normalSlot = c.emissionSlot = c.occlusionSlot = emptySlot();
   return material;
 }
@@ -118,7 +121,37 @@ Material makeMirrorMaterial(std::string name, glm::vec3 f0) {
   material.constants.factors.x = 1.0f;
   material.constants.factors.y = 0.0f;
   material.constants.kind.x = shading::kSurfaceMirror;
+  material.isSpecularDominant = true;
   return material;
+}
+
+Material makeMetalMaterial(std::string name, glm::vec3 eta, glm::vec3 k, float roughness) {
+  Material material = makeMirrorMaterial(std::move(name), shading::F_Conductor(1.0f, eta, k));
+  shading::MaterialConstants& c = material.constants;
+  c.conductorEta = glm::vec4(eta, 1.0f);
+  c.conductorK = glm::vec4(k, 0.0f);
+  c.factors.y = roughness;
+  if (shading::ggxAlpha(roughness) > 0.0f) c.kind.x = shading::kSurfaceGlossy;
+  material.isSpecularDominant = roughness < kSmoothRoughness;
+  return material;
+}
+
+Material makeGlassMaterial(std::string name, float ior, float thickness) {
+  Material material = makeDiffuseMaterial(std::move(name), glm::vec3(1.0f));
+  shading::MaterialConstants& c = material.constants;
+  c.kind = {shading::kSurfaceGlass, ior, thickness, 0.0f};
+  c.factors = {0.0f, 0.0f, 1.0f, 1.0f};
+  c.specular.w = 1.0f;
+  material.isSpecularDominant = true;
+  return material;
+}
+
+void setAttenuation(Material& material, glm::vec3 color, float distance) {
+  material.attenuationColor = color;
+  material.attenuationDistance = distance;
+  // Beer-Lambert: exp(-absorption distance) = color.
+  const glm::vec3 absorption = -glm::log(glm::max(color, glm::vec3(1e-6f))) / distance;
+  material.constants.absorption = glm::vec4(absorption, 0.0f);
 }
 
 glm::vec4 sampleTrack(const Track& track, double timeSeconds) {

@@ -69,6 +69,9 @@ struct Mesh {
 // or infinite positions, and for indices out of range.
 std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents = false);
 
+// Perceptual roughness below which a metal counts as specular-dominant.
+inline constexpr float kSmoothRoughness = 0.3f;
+
 struct Material {
   std::string name;
   shading::MaterialConstants constants;  // texture slots' w is set iff the texture below is
@@ -78,25 +81,29 @@ struct Material {
   int normalTexture = -1;
   int emissionTexture = -1;
   int occlusionTexture = -1;
+  int screen = -1;  // index into Scene::screens: its picture takes the place of the emission texture
   bool doubleSided = false;
+  // Its instances get a probe and are scored on the mask: metallic > 0.5 with roughness < 0.3 (means over the texture),
+  // or transmission > 0.5.
+  bool isSpecularDominant = false;
 
-  // Parsed from KHR_materials_{specular,volume,dispersion}; carried for the transport models that use them.
-  float specularFactor = 1.0f;
-  glm::vec3 specularColor{1.0f};
-  float thickness = 0.0f;  // metres
+  // KHR_materials_volume, as absorption in `constants`: set by setAttenuation().
   float attenuationDistance = std::numeric_limits<float>::infinity();
   glm::vec3 attenuationColor{1.0f};
-  float dispersion = 0.0f;  // 20 / Abbe number
-
-  bool isSpecularDominant() const {
-    return constants.kind.x == shading::kSurfaceMirror || constants.kind.x == shading::kSurfaceGlass;
-  }
 };
 
-// A white diffuse material: every factor at glTF's default except metallic, which is 0.
+// White light becomes `color` after `distance` metres inside; infinite for no absorption. A channel of 0 counts as
+// 1e-6.
+void setAttenuation(Material& material, glm::vec3 color, float distance);
+
+// A matte material: every factor at glTF's default except metallic and the specular factor, which are 0.
 Material makeDiffuseMaterial(std::string name, glm::vec3 albedo);
 // A perfect mirror (reflectance 1), or a smooth metal of the given F0.
 Material makeMirrorMaterial(std::string name, glm::vec3 f0 = glm::vec3(1.0f));
+// A metal of perceptual roughness `roughness`, by its complex index of refraction eta + i k per channel.
+Material makeMetalMaterial(std::string name, glm::vec3 eta, glm::vec3 k, float roughness);
+// Clear smooth glass that fills the mesh; thickness (metres) is what rasterisers assume that light crosses.
+Material makeGlassMaterial(std::string name, float ior, float thickness = 1.0f);
 
 // Where the probe of a node's instances stands. Distances in metres.
 struct ProbeSettings {
@@ -171,9 +178,10 @@ struct Scene {
   std::vector<Camera> cameras;  // at least one
   std::vector<Track> tracks;
   Environment environment;
-  double framesPerSecond = 30.0;      // frame f is the scene at time f / framesPerSecond, looped over durationSeconds
-  double durationSeconds = 0.0;       // end of the longest track; 0: nothing moves
-  float probeNear = 0.01f;            // near plane of cube captures, metres
+  bool castsShadows = false;      // of lights on diffuse surfaces: traced in the reference, shadow-mapped in the raster
+  double framesPerSecond = 30.0;  // frame f is the scene at time f / framesPerSecond, looped over durationSeconds
+  double durationSeconds = 0.0;   // end of the longest track; 0: nothing moves
+  float probeNear = 0.01f;        // near plane of cube captures, metres
   std::vector<std::string> warnings;  // what the loader ignored, one sentence each
   std::vector<std::string> notes;     // what the loader added (default camera, sky, ...)
 };

@@ -3,12 +3,15 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <map>
 #include <type_traits>
 
+#include "scenes/dfg_table.h"
 #include "scenes/error.h"
 #include "scenes/spec.h"
 
@@ -86,6 +89,15 @@ shading::View cameraView(const Camera& camera, const glm::mat4& world, double as
   return view;
 }
 
+const Texture* textureAt(const Scene& scene, int texture) {
+  return texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(texture)];
+}
+
+const Texture* emissionTextureOf(const Snapshot& snapshot, const Material& material) {
+  if (material.screen >= 0) return &snapshot.screens[static_cast<std::size_t>(material.screen)];
+  return textureAt(*snapshot.scene, material.emissionTexture);
+}
+
 // One probe a node: all its specular-dominant instances share it.
 void addProbes(Snapshot& snapshot, const std::vector<glm::mat4>& world) {
   std::map<int, int> probeOfNode;
@@ -94,7 +106,7 @@ void addProbes(Snapshot& snapshot, const std::vector<glm::mat4>& world) {
     SnapshotInstance& instance = snapshot.instances[i];
     const int node = snapshot.scene->instances[i].node;
     const std::optional<ProbeSettings>& settings = snapshot.scene->nodes[static_cast<std::size_t>(node)].probe;
-    if (!snapshot.materialOf(instance).isSpecularDominant() || (settings && !settings->enabled)) continue;
+    if (!snapshot.materialOf(instance).isSpecularDominant || (settings && !settings->enabled)) continue;
     const auto [found, isNew] = probeOfNode.try_emplace(node, static_cast<int>(snapshot.probes.size()));
     if (isNew) {
       snapshot.probes.push_back({glm::vec3(0.0f), {}, snapshot.scene->probeNear});
@@ -111,6 +123,59 @@ void addProbes(Snapshot& snapshot, const std::vector<glm::mat4>& world) {
             ? glm::vec3(world[static_cast<std::size_t>(node)] * glm::vec4(*settings->position, 1.0f))
             : bounds[static_cast<std::size_t>(probe)].centre();
   }
+}
+
+void findNearestProbes(Snapshot& snapshot) {
+  for (SnapshotInstance& instance : snapshot.instances) {
+    if (instance.probe >= 0 || snapshot.probes.empty()) continue;
+    const auto distance = [&](const Probe& p) { return glm::distance(p.position, instance.worldBounds.centre()); };
+    instance.nearestProbe =
+        static_cast<int>(std::ranges::min_element(snapshot.probes, {}, distance) - snapshot.probes.begin());
+  }
+}
+
+// Mean over the texture: its last level is one texel.
+glm::vec3 meanEmission(const Snapshot& snapshot, const Material& material) {
+  const Texture* texture = emissionTextureOf(snapshot, material);
+  const glm::vec3 factor(material.constants.emission);
+  return texture == nullptr ? factor : factor * glm::vec3(texture->levels.back()(0, 0));
+}
+
+float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+void addAreaLightsOf(Snapshot& snapshot, std::size_t index, const glm::vec3& radiance) {
+  const SnapshotInstance& instance = snapshot.instances[index];
+  const Mesh& mesh = *instance.mesh;
+  const bool bothSides = snapshot.materialOf(instance).doubleSided;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    std::array<glm::vec4, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = glm::vec4(
+          glm::vec3(instance.worldFromObject * glm::vec4(mesh.positions[mesh.indices[3 * t + k]], 1.0f)), 0.0f);
+    if (instance.mirrored) std::swap(corners[1], corners[2]);
+    corners[0].w = bothSides ? 1.0f : 0.0f;
+    snapshot.areaLights.push_back({corners[0], corners[1], corners[2], glm::vec4(radiance, 0.0f)});
+    snapshot.areaLightSources.push_back({static_cast<int>(index), static_cast<std::uint32_t>(t)});
+  }
+}
+
+// Brightest instances first, as long as all of their triangles fit.
+void addAreaLights(Snapshot& snapshot) {
+  struct Emitter {
+    std::size_t instance;
+    glm::vec3 radiance;
+  };
+  std::vector<Emitter> emitters;
+  for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
+    const Material& material = snapshot.materialOf(snapshot.instances[i]);
+    const glm::vec3 radiance = meanEmission(snapshot, material);
+    if (material.constants.kind.x != shading::kSurfaceUnlit && luminance(radiance) > 0.0f)
+      emitters.push_back({i, radiance});
+  }
+  std::ranges::stable_sort(emitters, std::greater(), [](const Emitter& e) { return luminance(e.radiance); });
+  for (const Emitter& e : emitters)
+    if (snapshot.areaLights.size() + snapshot.instances[e.instance].mesh->triangleCount() <= kMaxAreaLights)
+      addAreaLightsOf(snapshot, e.instance, e.radiance);
 }
 
 const Camera& findCamera(const Scene& scene, const std::string& name) {
@@ -143,13 +208,16 @@ class Hasher {
   XXH3_state_t* state_;
 };
 
-void hashTexture(Hasher& hasher, const Scene& scene, int texture) {
-  hasher.value(texture);
-  if (texture < 0) return;
-  const ImageRgba& level0 = scene.textures[static_cast<std::size_t>(texture)].levels.front();  // determines the others
+void hashTexels(Hasher& hasher, const Texture& texture) {
+  const ImageRgba& level0 = texture.levels.front();  // determines the others
   hasher.value(level0.width());
   hasher.value(level0.height());
   hasher.bytes(level0.data(), level0.size() * sizeof(glm::vec4));
+}
+
+void hashTexture(Hasher& hasher, const Scene& scene, int texture) {
+  hasher.value(texture);
+  if (texture >= 0) hashTexels(hasher, scene.textures[static_cast<std::size_t>(texture)]);
 }
 
 void hashMaterial(Hasher& hasher, const Scene& scene, const Material& m) {
@@ -158,19 +226,13 @@ void hashMaterial(Hasher& hasher, const Scene& scene, const Material& m) {
        {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture, m.occlusionTexture})
     hashTexture(hasher, scene, texture);
   hasher.value(m.doubleSided);
-  hasher.value(m.specularFactor);
-  hasher.value(m.specularColor);
-  hasher.value(m.thickness);
-  hasher.value(m.attenuationDistance);
-  hasher.value(m.attenuationColor);
-  hasher.value(m.dispersion);
+  hasher.value(m.isSpecularDominant);
 }
 
 // Values of the slot's texture, white without one.
-shading::vec4 sampleSlot(const Scene& scene, int texture, const shading::TextureSlot& slot,
-                         const SurfaceAttributes& a) {
-  if (texture < 0) return shading::vec4(1.0f);
-  const shading::sampler2D image{&scene.textures[static_cast<std::size_t>(texture)].levels};
+shading::vec4 sampleSlot(const Texture* texture, const shading::TextureSlot& slot, const SurfaceAttributes& a) {
+  if (texture == nullptr) return shading::vec4(1.0f);
+  const shading::sampler2D image{&texture->levels};
   const shading::vec2 uv = shading::textureCoordinates(slot.matrix, slot.offset, a.uv0, a.uv1);
   const float lod = shading::coneLod(a.coneWidth, a.cosine, a.uvPerMetre, shading::textureSize(image, 0), slot.matrix);
   return shading::sampleTexture(image, uv, lod, slot.sampler_);
@@ -211,6 +273,8 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene,
   for (const PunctualLight& light : s.lights)
     snapshot->lights.push_back(worldLight(light, world[static_cast<std::size_t>(light.node)]));
   addProbes(*snapshot, world);
+  findNearestProbes(*snapshot);
+  addAreaLights(*snapshot);
   const Camera& chosen = findCamera(s, camera);
   snapshot->camera = cameraView(chosen, world[static_cast<std::size_t>(chosen.node)], aspect);
   return snapshot;
@@ -227,6 +291,8 @@ std::uint64_t contentHash(const Snapshot& snapshot) {
   }
   for (const Material& material : scene.materials) hashMaterial(hasher, scene, material);
   for (const shading::Light& light : snapshot.lights) hasher.value(light);
+  for (const Texture& screen : snapshot.screens) hashTexels(hasher, screen);
+  hasher.value(scene.castsShadows);
   hasher.value(scene.environment.sky);
   hasher.value(scene.environment.ambient);
   for (const ImageRgba& face : scene.environment.faces) hasher.bytes(face.data(), face.size() * sizeof(glm::vec4));
@@ -252,17 +318,18 @@ shading::View cubeFaceView(glm::vec3 position, int face, float zNear) {
   return view;
 }
 
-shading::Surface readSurface(const Scene& scene, const Material& material, const SurfaceAttributes& a) {
+shading::Surface readSurface(const Snapshot& snapshot, const Material& material, const SurfaceAttributes& a) {
+  const Scene& scene = *snapshot.scene;
   const shading::MaterialConstants& c = material.constants;
   shading::vec3 normal = a.normal;
   if (material.normalTexture >= 0 && a.tangent.w != 0.0f)
-    normal = shading::mappedNormal(a.normal, a.tangent, sampleSlot(scene, material.normalTexture, c.normalSlot, a),
-                                   c.emission.w);
-  return shading::makeSurface(c, a.position, normal, a.color,
-                              sampleSlot(scene, material.baseColorTexture, c.baseColorSlot, a),
-                              sampleSlot(scene, material.metallicRoughnessTexture, c.metallicRoughnessSlot, a),
-                              sampleSlot(scene, material.emissionTexture, c.emissionSlot, a),
-                              sampleSlot(scene, material.occlusionTexture, c.occlusionSlot, a));
+    normal = shading::mappedNormal(a.normal, a.tangent,
+                                   sampleSlot(textureAt(scene, material.normalTexture), c.normalSlot, a), c.emission.w);
+  return shading::makeSurface(
+      c, a.position, normal, a.color, sampleSlot(textureAt(scene, material.baseColorTexture), c.baseColorSlot, a),
+      sampleSlot(textureAt(scene, material.metallicRoughnessTexture), c.metallicRoughnessSlot, a),
+      sampleSlot(emissionTextureOf(snapshot, material), c.emissionSlot, a),
+      sampleSlot(textureAt(scene, material.occlusionTexture), c.occlusionSlot, a));
 }
 
 std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, const SurfaceAttributes& a) {
@@ -274,12 +341,31 @@ std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, con
   return static_cast<std::uint32_t>(shading::nearestTexelId(image, uv, lod, slot.sampler_));
 }
 
-glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface) {
-  shading::vec3 irradiance(0.0f);
-  for (const shading::Light& light : snapshot.lights)
-    irradiance += shading::lightIrradianceOn(light, surface.position, surface.normal);
-  return shading::localRadiance(surface, irradiance,
-                                shading::ambientRadiance(snapshot.scene->environment.ambient, surface.normal));
+glm::vec3 coatAlbedo(const shading::Surface& surface, const glm::vec3& toViewer) {
+  if (surface.kind != shading::kSurfaceGlossy && surface.kind != shading::kSurfaceGlass) return glm::vec3(0.0f);
+  const shading::sampler2D table{&dfgTable(shading::kGeometrySmithCorrelated).levels};
+  const float NoV = std::max(glm::dot(surface.normal, toViewer), 0.0f);
+  return shading::coatAlbedo(surface, shading::surfaceDfg(surface, table, NoV));
+}
+
+glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface, const glm::vec3& toViewer) {
+  constexpr glm::vec4 kExactFresnel(shading::kFresnelExact, 0.0f, 0.0f, 0.0f);
+  glm::vec3 irradiance(0.0f);
+  glm::vec3 highlights(0.0f);
+  for (const shading::Light& light : snapshot.lights) {
+    const glm::vec3 fromLight = shading::lightIrradianceOn(light, surface.position, surface.normal);
+    irradiance += fromLight;
+    if (surface.alpha > 0.0f)
+      highlights +=
+          fromLight * shading::specularBrdf(surface, toViewer, shading::lightDirection(light, surface.position),
+                                            kExactFresnel, shading::kGeometrySmithCorrelated);
+  }
+  for (const shading::AreaLight& light : snapshot.areaLights)
+    irradiance += shading::areaLightIrradiance(light, surface.position, surface.normal);
+  return highlights +
+         shading::localRadiance(surface, irradiance,
+                                shading::ambientRadiance(snapshot.scene->environment.ambient, surface.normal),
+                                coatAlbedo(surface, toViewer));
 }
 
 }  // namespace pb

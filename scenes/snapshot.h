@@ -21,7 +21,14 @@ struct SnapshotInstance {
   float uvScale = 1.0f;    // multiplies the mesh's uvPerMetre
   bool mirrored = false;   // the transform reverses orientation
   Bounds worldBounds;
-  int probe = -1;  // index into Snapshot::probes, -1 for none
+  int probe = -1;         // index into Snapshot::probes, -1 for none
+  int nearestProbe = -1;  // of instances without one of their own: the probe nearest to the centre of their bounds
+};
+
+// A triangle that gives light to others.
+struct EmittingTriangle {
+  int instance;
+  std::uint32_t triangle;
 };
 
 struct Probe {
@@ -35,6 +42,9 @@ struct Snapshot {
   double timeSeconds = 0.0;
   std::vector<SnapshotInstance> instances;
   std::vector<shading::Light> lights;
+  std::vector<shading::AreaLight> areaLights;      // triangles of emissive materials, at most kMaxAreaLights
+  std::vector<EmittingTriangle> areaLightSources;  // where each of them comes from
+  std::vector<Texture> screens;                    // pictures of Scene::screens at this time
   std::vector<Probe> probes;
   shading::View camera;  // for the aspect given to makeSnapshot; forward.w is set by withResolution()
 
@@ -42,6 +52,10 @@ struct Snapshot {
     return scene->materials[static_cast<std::size_t>(instance.material)];
   }
 };
+
+// Emissive instances give light to diffuse surfaces as long as they have no more triangles than this in all, the
+// brightest first; those that don't fit are only seen.
+inline constexpr std::size_t kMaxAreaLights = 64;
 
 // Every instance's mesh with its world transform; for bounds before there is a camera.
 struct WorldMesh {
@@ -77,13 +91,17 @@ struct SurfaceAttributes {
   float coneWidth;
   float cosine;
 };
-shading::Surface readSurface(const Scene& scene, const Material& material, const SurfaceAttributes& a);
+shading::Surface readSurface(const Snapshot& snapshot, const Material& material, const SurfaceAttributes& a);
 
 // SampleId::texel of the point: see nearestTexelId() in shading/texture.glsl, 0 without a base colour texture.
 std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, const SurfaceAttributes& a);
 
-// What lies on the surface besides specular light: lights, ambient, emission (no shadows).
-glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface);
+// Share of uniform light that the surface's dielectric coat keeps from what lies under it; 0 for surfaces without coat.
+glm::vec3 coatAlbedo(const shading::Surface& surface, const glm::vec3& toViewer);
+
+// What a surface sends to the viewer (unit direction) without reflecting or refracting other surfaces or the
+// environment: emission, lights without shadows (highlights of punctual lights included), ambient.
+glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface, const glm::vec3& toViewer);
 
 // What a primary sample shows, for masks and for the control's left-out pixels. Instance id is index + 1, 0 the
 // environment; group is the smoothing group + 1; texel identifies the base colour texel if a texture is read with a

@@ -5,8 +5,11 @@
 #include "scenes/shading/environment.glsl"
 #include "scenes/shading/fresnel.glsl"
 #include "scenes/shading/light.glsl"
+#include "scenes/shading/area_light.glsl"
+#include "scenes/shading/microfacet.glsl"
 #include "scenes/shading/texture.glsl"
 #include "scenes/shading/surface.glsl"
+#include "scenes/shading/volume.glsl"
 #include "raster/shaders/gpu_structs.glsl"
 
 layout(std140, binding = kPassBlock) uniform PassBlock { PassConstants pass; };

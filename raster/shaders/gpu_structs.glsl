@@ -3,7 +3,8 @@
 
 struct PassConstants {
   View view;
-  vec4 image;  // x width and y height in samples, z largest radiance that the colour format holds, w number of lights
+  vec4 image;   // x width and y height in samples, z largest radiance that the colour format holds
+  vec4 lights;  // x number of punctual lights, y of area lights
 };
 
 struct SceneConstants {
@@ -26,9 +27,11 @@ const int kMaterialBlock = 3;
 // Shader storage blocks.
 const int kLightBlock = 0;
 const int kSmoothingGroupBlock = 1;
+const int kAreaLightBlock = 2;
 // Texture units. Those of a material follow kMaterialUnit in the order of the slots in MaterialConstants.
 const int kProbeUnit = 0;
 const int kEnvironmentUnit = 1;
 const int kEnvironmentCubeUnit = 2;
-const int kMaterialUnit = 3;
-const int kTextureUnits = 8;
+const int kDfgUnit = 3;
+const int kMaterialUnit = 4;
+const int kTextureUnits = 9;

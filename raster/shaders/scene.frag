@@ -12,6 +12,15 @@
 #endif
 
 layout(std430, binding = kLightBlock) readonly buffer LightBlock { Light lights[]; };
+layout(std430, binding = kAreaLightBlock) readonly buffer AreaLightBlock { AreaLight areaLights[]; };
+layout(binding = kDfgUnit) uniform sampler2D dfgTable;
+
+#ifndef FRESNEL_LAW
+#define FRESNEL_LAW vec4(kFresnelExact, 0.0f, 0.0f, 0.0f)
+#define GEOMETRY_TERM kGeometrySmithCorrelated
+#endif
+const vec4 kFresnelLaw = FRESNEL_LAW;
+const float kGeometry = GEOMETRY_TERM;
 
 layout(location = 0) out vec4 radiance;
 
@@ -23,30 +32,33 @@ vec3 radianceAlong(vec3 d) { return vec3(textureLod(probes, vec4(d, instance.val
 vec3 radianceAlong(vec3 d) { return environmentAlong(d); }
 #endif
 
-vec3 irradianceOfLights(Surface s) {
-  vec3 sum = vec3(0.0f);
-  int count = int(pass.image.w);
-  for (int i = 0; i < count; ++i) sum += lightIrradianceOn(lights[i], s.position, s.normal);
-  return sum;
+// Emission, light of the lights and ambient light: the twin of pb::localRadiance() in scenes/snapshot.h.
+vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
+  vec3 irradiance = vec3(0.0f);
+  vec3 highlights = vec3(0.0f);
+  int count = int(pass.lights.x);
+  for (int i = 0; i < count; ++i) {
+    vec3 fromLight = lightIrradianceOn(lights[i], s.position, s.normal);
+    irradiance += fromLight;
+    if (s.kind == kSurfaceGlossy)
+      highlights += fromLight * specularBrdf(s, toViewer, lightDirection(lights[i], s.position), kFresnelLaw, kGeometry);
+  }
+  count = int(pass.lights.y);
+  for (int i = 0; i < count; ++i) irradiance += areaLightIrradiance(areaLights[i], s.position, s.normal);
+  return highlights + localRadiance(s, irradiance, ambientRadiance(scene.ambient, s.normal), coatAlbedo(s, dfg));
 }
 
-vec3 specularRadiance(Surface s, vec3 toViewer) {
-  float relativeIor = gl_FrontFacing ? s.ior : 1.0f / s.ior;
-  SpecularWeights weights = specularWeights(s, max(dot(s.normal, toViewer), 0.0f), relativeIor);
-  vec3 sum = weights.reflection * radianceAlong(reflectedDirection(-toViewer, s.normal));
-  if (s.kind == kSurfaceGlass) {
-    vec3 refracted = refractedDirection(-toViewer, s.normal, relativeIor);
-    // Zero beyond the critical angle: no direction to look up.
-    if (dot(refracted, refracted) > 0.0f) sum += weights.refraction * radianceAlong(refracted);
-  }
-  return sum;
-}
+#include "raster/shaders/refraction.glsl"
+#include "raster/shaders/specular.glsl"
 
 void main() {
   Fragment fragment = makeFragment();
   Surface s = readSurface(fragment);
   s.kind = SURFACE_KIND;  // what the material says, known to the compiler
-  vec3 sum = localRadiance(s, irradianceOfLights(s), ambientRadiance(scene.ambient, s.normal));
-  if (s.kind == kSurfaceMirror || s.kind == kSurfaceGlass) sum += specularRadiance(s, fragment.toViewer);
+  vec2 dfg = vec2(0.0f);
+  if (s.kind == kSurfaceGlass || s.kind == kSurfaceGlossy)
+    dfg = surfaceDfg(s, dfgTable, max(dot(s.normal, fragment.toViewer), 0.0f));
+  vec3 sum = localRadianceOf(s, fragment.toViewer, dfg);
+  if (isSpecular(s)) sum += specularRadiance(s, fragment.toViewer, dfg);
   radiance = vec4(min(sum, vec3(pass.image.z)), 1.0f);
 }

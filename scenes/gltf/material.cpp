@@ -16,9 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-// Metals smoother than this are specular-dominant: mirrors with a probe. Rougher ones get no specular lookup.
-constexpr float kSmoothRoughness = 0.3f;
-
 enum class Content { color, data };  // colours are sRGB in integer formats, data is linear
 
 // Members of a material's extension, with the defaults of the extension's specification.
@@ -227,13 +224,13 @@ class MaterialReader {
       c.kind.y = 1.5f;
     }
     const Extension specular(json_, "KHR_materials_specular");
-    material_.specularFactor = specular.number("specularFactor", 1.0f);
-    material_.specularColor = specular.color("specularColorFactor", glm::vec3(1.0f));
+    c.specular =
+        glm::vec4(specular.color("specularColorFactor", glm::vec3(1.0f)), specular.number("specularFactor", 1.0f));
     const Extension volume(json_, "KHR_materials_volume");
-    material_.thickness = volume.number("thicknessFactor", 0.0f);
-    material_.attenuationDistance = volume.number("attenuationDistance", std::numeric_limits<float>::infinity());
-    material_.attenuationColor = volume.color("attenuationColor", glm::vec3(1.0f));
-    material_.dispersion = Extension(json_, "KHR_materials_dispersion").number("dispersion", 0.0f);
+    c.kind.z = volume.number("thicknessFactor", 0.0f);
+    setAttenuation(material_, volume.color("attenuationColor", glm::vec3(1.0f)),
+                   volume.number("attenuationDistance", std::numeric_limits<float>::infinity()));
+    c.kind.w = Extension(json_, "KHR_materials_dispersion").number("dispersion", 0.0f);
   }
 
   // Mean of metallic (x) and roughness (y) over the texture.
@@ -247,19 +244,19 @@ class MaterialReader {
   }
 
   void classify() {
+    shading::MaterialConstants& c = material_.constants;
     const glm::vec2 mean = meanMetallicRoughness();
-    const float metallic = mean.x, roughness = mean.y;
-    float& kind = material_.constants.kind.x;
+    const bool textured = material_.metallicRoughnessTexture >= 0;
+    material_.isSpecularDominant = (mean.x > 0.5f && mean.y < kSmoothRoughness) || c.factors.w > 0.5f;
     if (Extension(json_, "KHR_materials_unlit").present()) {
-      kind = shading::kSurfaceUnlit;
-    } else if (material_.constants.factors.w > 0.5f) {
-      kind = shading::kSurfaceGlass;
-      if (roughness > 0.0f) warn(fmt::format("roughness {:.3g} is rendered as perfectly smooth glass", roughness));
-    } else if (metallic > 0.5f && roughness < kSmoothRoughness) {
-      kind = shading::kSurfaceMirror;
-      if (roughness > 0.0f) warn(fmt::format("roughness {:.3g} is rendered as a perfectly smooth mirror", roughness));
-    } else if (metallic > 0.5f) {
-      warn(fmt::format("a metal of roughness {:.3g} is rendered as diffuse with its base colour", roughness));
+      c.kind.x = shading::kSurfaceUnlit;
+      material_.isSpecularDominant = false;
+    } else if (c.factors.w > 0.0f) {
+      c.kind.x = shading::kSurfaceGlass;
+    } else if (!textured && c.factors.x == 1.0f && shading::ggxAlpha(c.factors.y) == 0.0f) {
+      c.kind.x = shading::kSurfaceMirror;
+    } else if (c.factors.x > 0.0f || c.specular.w > 0.0f) {
+      c.kind.x = shading::kSurfaceGlossy;
     }
   }
 
@@ -272,14 +269,6 @@ class MaterialReader {
           std::pair("KHR_materials_volume", "thicknessTexture"), std::pair("KHR_materials_specular", "specularTexture"),
           std::pair("KHR_materials_specular", "specularColorTexture")})
       if (Extension(json_, extension).has(key)) warn(fmt::format("{} is ignored", key));
-    const bool glass = material_.constants.kind.x == shading::kSurfaceGlass;
-    if (material_.constants.factors.w > 0.0f && !glass)
-      warn(fmt::format("transmission {:.3g} is rendered opaque", material_.constants.factors.w));
-    if (glass && std::isfinite(material_.attenuationDistance))
-      warn("KHR_materials_volume's attenuation is not rendered");
-    if (glass && material_.dispersion > 0.0f) warn("KHR_materials_dispersion is not rendered");
-    if (material_.specularFactor != 1.0f || material_.specularColor != glm::vec3(1.0f))
-      warn("KHR_materials_specular is not rendered");
   }
 
   const Document& document_;
@@ -295,6 +284,8 @@ class MaterialReader {
 Material defaultMaterial() {
   Material material = makeDiffuseMaterial("default", glm::vec3(1.0f));
   material.constants.factors.x = 1.0f;
+  material.constants.kind.x = shading::kSurfaceGlossy;
+  material.constants.specular.w = 1.0f;
   return material;
 }
 

@@ -30,14 +30,17 @@ using glm::vec4;
 using glm::abs;
 using glm::atan;
 using glm::clamp;
+using glm::cos;
 using glm::cross;
 using glm::dot;
+using glm::exp;
 using glm::floor;
 using glm::log2;
 using glm::max;
 using glm::min;
 using glm::mix;
 using glm::pow;
+using glm::sin;
 using glm::sqrt;
 
 // A mipmapped texture: level 0 first. Must not be empty when it is sampled.
@@ -68,20 +71,24 @@ inline vec4 texelFetch(sampler2DArray image, ivec3 p, int /*level*/) {
 #define PB_FUNC inline
 #include "scenes/shading/common.glsl"
 // common.glsl first; the rest in order of dependence.
+#include "scenes/shading/area_light.glsl"
 #include "scenes/shading/cubemap.glsl"
 #include "scenes/shading/environment.glsl"
 #include "scenes/shading/fresnel.glsl"
 #include "scenes/shading/light.glsl"
+#include "scenes/shading/microfacet.glsl"
 #include "scenes/shading/srgb.glsl"
 #include "scenes/shading/surface.glsl"
 #include "scenes/shading/texture.glsl"
 #include "scenes/shading/view.glsl"
+#include "scenes/shading/volume.glsl"
 #undef PB_FUNC
 
 // These travel in GPU buffers as they are: vec4 members only, so std140, std430 and C++ agree.
 static_assert(sizeof(Sky) == 5 * 16 && sizeof(Ambient) == 9 * 16 && sizeof(Light) == 4 * 16 && sizeof(View) == 4 * 16);
-static_assert(sizeof(TextureSlot) == 3 * 16 && sizeof(MaterialConstants) == (4 + 5 * 3) * 16);
-static_assert(offsetof(MaterialConstants, baseColorSlot) == 64 &&
-              offsetof(MaterialConstants, occlusionSlot) == 64 + 4 * 48);
+static_assert(sizeof(TextureSlot) == 3 * 16 && sizeof(MaterialConstants) == (9 + 5 * 3) * 16);
+static_assert(sizeof(AreaLight) == 4 * 16);
+static_assert(offsetof(MaterialConstants, baseColorSlot) == 9 * 16 &&
+              offsetof(MaterialConstants, occlusionSlot) == 9 * 16 + 4 * 48);
 
 }  // namespace pb::shading

@@ -5,10 +5,13 @@
 #include "scenes/shading/environment.glsl"
 #include "scenes/shading/fresnel.glsl"
 #include "scenes/shading/light.glsl"
+#include "scenes/shading/area_light.glsl"
+#include "scenes/shading/microfacet.glsl"
 #include "scenes/shading/srgb.glsl"
 #include "scenes/shading/surface.glsl"
 #include "scenes/shading/texture.glsl"
 #include "scenes/shading/view.glsl"
+#include "scenes/shading/volume.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };

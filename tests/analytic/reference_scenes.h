@@ -32,12 +32,7 @@ inline Material makeEmitter(glm::vec3 radiance) {
 }
 
 // Clear, colourless and smooth.
-inline Material makeGlass(float ior) {
-  Material material = makeDiffuseMaterial("glass", glm::vec3(1.0f));
-  material.constants.kind = {shading::kSurfaceGlass, ior, 0.0f, 0.0f};
-  material.constants.factors.w = 1.0f;
-  return material;
-}
+inline Material makeGlass(float ior) { return makeGlassMaterial("glass", ior); }
 
 inline int add(Scene& scene, Mesh mesh, Material material, Node node = {}) {
   addInstance(scene, mesh.name, finishMesh(std::move(mesh)), addMaterial(scene, std::move(material)), std::move(node));

@@ -105,13 +105,10 @@ TEST(SaveGlb, OfTexturesOfBytes_LosesNothing) {
 Scene makeOddScene() {
   Scene scene = *loadScene("builtin:mirrors?count=1");
   Material glass = makeDiffuseMaterial("glass", glm::vec3(0.9f));
-  glass.constants.kind = {shading::kSurfaceGlass, 1.33f, 0.0f, 0.0f};
+  glass.constants.kind = {shading::kSurfaceGlass, 1.33f, 0.5f, 0.1f};
   glass.constants.factors = {0.0f, 0.0f, 1.0f, 0.9f};
-  glass.thickness = 0.5f;
-  glass.attenuationDistance = 2.0f;
-  glass.attenuationColor = {0.5f, 1.0f, 0.25f};
-  glass.dispersion = 0.1f;
-  glass.specularFactor = 0.5f;
+  glass.constants.specular.w = 0.5f;
+  setAttenuation(glass, {0.5f, 1.0f, 0.25f}, 2.0f);
   Material screen = makeDiffuseMaterial("screen", glm::vec3(0.5f));
   screen.constants.emission = {100.0f, 3.0f, 0.1f, 1.0f};
   shading::TextureSlot& slot = screen.constants.baseColorSlot;
@@ -135,11 +132,11 @@ TEST(SaveGlb, OfEveryMaterialFeature_LoadsThemBack) {
   const auto loaded = savedAndLoaded(scene);
   const Material& glass = loaded->materials.at(0);
   EXPECT_TRUE(sameBytes(glass.constants, scene.materials[0].constants));
-  EXPECT_EQ(glass.thickness, 0.5f);
+  EXPECT_EQ(glass.constants.kind.z, 0.5f);
   EXPECT_EQ(glass.attenuationDistance, 2.0f);
   EXPECT_EQ(glass.attenuationColor, scene.materials[0].attenuationColor);
-  EXPECT_EQ(glass.dispersion, 0.1f);
-  EXPECT_EQ(glass.specularFactor, 0.5f);
+  EXPECT_EQ(glass.constants.kind.w, 0.1f);
+  EXPECT_EQ(glass.constants.specular.w, 0.5f);
   const shading::MaterialConstants& screen = loaded->materials.at(1).constants;
   EXPECT_EQ(screen.emission, scene.materials[1].constants.emission);
   EXPECT_EQ(screen.baseColorSlot.offset, scene.materials[1].constants.baseColorSlot.offset);

@@ -237,12 +237,7 @@ TEST_P(Raster, PerfectMirrorVanishesInAWhiteFurnace) {
   }
 }
 
-Material makeGlass(float ior) {
-  Material glass = makeDiffuseMaterial("glass", kWhite);
-  glass.constants.kind = {shading::kSurfaceGlass, ior, 0.0f, 0.0f};
-  glass.constants.factors.w = 1.0f;
-  return glass;
-}
+Material makeGlass(float ior) { return makeGlassMaterial("glass", ior); }
 
 TEST_P(Raster, GlassOfIndexOneIsInvisible) {
   Technique technique = withResolution(16);
@@ -560,11 +555,11 @@ TEST_P(Raster, EveryVariantOfTheShadersCompiles) {
         variant.filter = filter;
         variant.attributes = textured;
         variant.textures.fill(textured ? std::optional(SamplerSettings{0.0f, 1.0f, 1.0f, 5.0f}) : std::nullopt);
-        EXPECT_NE(impl.programs.surfaceShowingProbe(variant), 0U);
+        EXPECT_NE(impl.programs.surfaceShowingProbe(variant, techniqueDefines({})), 0U);
         EXPECT_NE(impl.programs.ids(variant), 0U);
         for (const EnvironmentSource source :
              {EnvironmentSource::gradient, EnvironmentSource::faces, EnvironmentSource::facesHardware})
-          EXPECT_NE(impl.programs.surfaceShowingEnvironment(variant, source), 0U);
+          EXPECT_NE(impl.programs.surfaceShowingEnvironment(variant, source, techniqueDefines({})), 0U);
       }
 }
 

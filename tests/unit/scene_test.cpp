@@ -286,7 +286,7 @@ TEST(BuiltinScenes, AreAllMadeAndKnownByName) {
 
 TEST(BuiltinScenes, ControlHasNoSpecularSurface) {
   for (const Material& material : makeBuiltinScene({"control", {}}).materials)
-    EXPECT_FALSE(material.isSpecularDominant()) << material.name;
+    EXPECT_FALSE(material.isSpecularDominant) << material.name;
 }
 
 TEST(BuiltinScenes, MirrorsHasAsManyProbesAsMirrors) {
