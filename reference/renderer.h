@@ -14,10 +14,16 @@
 
 namespace pb {
 
+// Light that diffuse surfaces get: that of their hit point alone, or all that paths bring (global illumination).
+enum class DiffuseTransport { local, traced };
+
 struct ReferenceSettings {
   int samplesPerAxis = 4;      // S: S x S primary points on a regular grid in each pixel, box filter
   int spp = 16;                // samples of the other dimensions per primary point, even, at least 2
   std::optional<int> depth{};  // K: specular hits before a path takes the environment, unoccluded; none: converged
+  DiffuseTransport diffuse = DiffuseTransport::local;
+  std::optional<int> diffuseDepth{};  // N, of traced paths: diffuse bounces after which diffuse surfaces only get direct
+                                      // light and the occluded sky; none: unlimited
   std::uint64_t seed = 1;
   std::vector<int> hiddenInstances{};  // left out of the scene for every ray
 
@@ -25,7 +31,7 @@ struct ReferenceSettings {
 };
 
 // Version of the integrator: changes whenever a picture may change. Part of the store's keys.
-inline constexpr int kIntegratorVersion = 1;
+inline constexpr int kIntegratorVersion = 2;
 
 // Independent batches of samples (at most kMaxBatches, min(spp, kMaxBatches) of them, an even number), each the mean of
 // its samples.
