@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 namespace pb {
@@ -34,6 +35,12 @@ class Sampler {
   float next() {
     const glm::uvec4 hash = pcg4d({key_.x, key_.y, point_, key_.z ^ dimension_++});
     return static_cast<float>(hash.x >> 8) * 0x1p-24f;
+  }
+
+  // Two of them at once: they belong together, as the two coordinates of one direction do.
+  glm::vec2 next2() {
+    const float x = next();
+    return {x, next()};
   }
 
   // Whether next() was called: a path that never did is the same for every sample.
