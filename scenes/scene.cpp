@@ -38,6 +38,9 @@ shading::TextureSlot emptySlot() {
   return slot;
 }
 
+// Pictures are made on the CPU for every frame.
+constexpr int kMaxScreenPx = 1024;
+
 std::size_t valuesPerKey(const Track& track) { return track.interpolation == Interpolation::cubicSpline ? 3 : 1; }
 
 glm::quat quatOf(const glm::vec4& xyzw) { return {xyzw.w, xyzw.x, xyzw.y, xyzw.z}; }
@@ -66,6 +69,20 @@ void checkTrack(const Scene& scene, const Track& track) {
     if (!std::isfinite(track.timesSeconds[k]) || (k > 0 && track.timesSeconds[k] <= track.timesSeconds[k - 1]))
       throwInputError("animation of node '{}' wants increasing key times, got {} at key {}", node,
                       track.timesSeconds[k], k);
+}
+
+void checkScreen(const Scene& scene, const Screen& screen) {
+  const bool knownProgram = screen.program >= 0.0f && screen.program < shading::kScreenPrograms &&
+                            screen.program == std::floor(screen.program);
+  if (!knownProgram)
+    throwInputError("screen '{}' of scene '{}' wants a program from 0 to {}, got {}", screen.name, scene.name,
+                    shading::kScreenPrograms - 1.0f, screen.program);
+  if (std::min(screen.widthPx, screen.heightPx) < 1 || std::max(screen.widthPx, screen.heightPx) > kMaxScreenPx)
+    throwInputError("screen '{}' of scene '{}' wants a size from 1x1 to {}x{}, got {}x{}", screen.name, scene.name,
+                    kMaxScreenPx, kMaxScreenPx, screen.widthPx, screen.heightPx);
+  if (!(screen.periodSeconds > 0.0f) || !std::isfinite(screen.periodSeconds) || !std::isfinite(screen.phase))
+    throwInputError("screen '{}' of scene '{}' wants a period above 0 and a finite phase, got {} and {}", screen.name,
+                    scene.name, screen.periodSeconds, screen.phase);
 }
 
 }  // namespace
@@ -205,6 +222,10 @@ void finishScene(Scene& scene) {
   for (const Track& track : scene.tracks) {
     checkTrack(scene, track);
     scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(track.timesSeconds.back()));
+  }
+  for (const Screen& screen : scene.screens) {
+    checkScreen(scene, screen);
+    scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(screen.periodSeconds));
   }
   if (scene.environment.faces.empty())
     scene.environment.faces.assign(6, ImageRgba(1, 1, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));

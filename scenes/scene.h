@@ -168,9 +168,20 @@ struct Environment {
   shading::Ambient ambient;      // light of the environment on diffuse surfaces
 };
 
+// A picture that a program of shading/screen.glsl draws anew for every time, and that materials show as their emission.
+struct Screen {
+  std::string name;
+  float program = shading::kScreenMelt;  // kScreen*
+  int widthPx = 96;
+  int heightPx = 72;
+  float periodSeconds = 4.0f;  // of the loop that it shows
+  float phase = 0.0f;          // where in the loop it starts, in periods
+};
+
 struct Scene {
   std::string name;
   std::vector<Texture> textures;
+  std::vector<Screen> screens;
   std::vector<Material> materials;
   std::vector<Node> nodes;
   std::vector<Instance> instances;
@@ -180,7 +191,7 @@ struct Scene {
   Environment environment;
   bool castsShadows = false;      // of lights on diffuse surfaces: traced in the reference, shadow-mapped in the raster
   double framesPerSecond = 30.0;  // frame f is the scene at time f / framesPerSecond, looped over durationSeconds
-  double durationSeconds = 0.0;   // end of the longest track; 0: nothing moves
+  double durationSeconds = 0.0;   // end of the longest track or screen's loop; 0: nothing moves
   float probeNear = 0.01f;        // near plane of cube captures, metres
   std::vector<std::string> warnings;  // what the loader ignored, one sentence each
   std::vector<std::string> notes;     // what the loader added (default camera, sky, ...)
@@ -193,7 +204,8 @@ void finishScene(Scene& scene);
 // A camera that sees the whole box from the front and a little above.
 void addFramingCamera(Scene& scene);
 
-// "builtin:NAME[?k=v..]" or a path to .gltf/.glb, with options environment=FILE|sky|... and mirror=NODE|all.
+// "builtin:NAME[?k=v..]" or a path to .gltf/.glb, with options environment=FILE|sky|...,
+// shadows=none|traced and mirror=NODE|all.
 // Throws an input Error for anything that is not a scene.
 std::shared_ptr<const Scene> loadScene(const std::string& reference);
 

@@ -13,6 +13,7 @@
 
 #include "scenes/dfg_table.h"
 #include "scenes/error.h"
+#include "scenes/screen.h"
 #include "scenes/spec.h"
 
 namespace pb {
@@ -225,6 +226,7 @@ void hashMaterial(Hasher& hasher, const Scene& scene, const Material& m) {
   for (const int texture :
        {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture, m.occlusionTexture})
     hashTexture(hasher, scene, texture);
+  hasher.value(m.screen);
   hasher.value(m.doubleSided);
   hasher.value(m.isSpecularDominant);
 }
@@ -272,6 +274,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene,
   }
   for (const PunctualLight& light : s.lights)
     snapshot->lights.push_back(worldLight(light, world[static_cast<std::size_t>(light.node)]));
+  for (const Screen& screen : s.screens) snapshot->screens.push_back(renderScreen(screen, snapshot->timeSeconds));
   addProbes(*snapshot, world);
   findNearestProbes(*snapshot);
   addAreaLights(*snapshot);
