@@ -121,16 +121,19 @@ Texture makeTexture(const Functions& gl, const TextureShape& shape) {
   return texture;
 }
 
-Texture makeCubeView(const Texture& layers, GLenum format) {
-  const Functions& gl = layers.gl();
+Texture makeView(const Texture& texture, const ViewShape& shape) {
+  const Functions& gl = texture.gl();
   GLuint id = 0;
   gl.GenTextures(1, &id);  // a view's name must not have a target yet
   Texture view(gl, id);
-  gl.TextureView(id, GL_TEXTURE_CUBE_MAP, layers.id(), format, 0, 1, 0, 6);
-  gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureView(id, shape.target, texture.id(), shape.format, 0, static_cast<GLuint>(shape.levels), 0,
+                 static_cast<GLuint>(shape.layers));
+  gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, shape.levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
   gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return view;
 }
+
+Texture makeCubeView(const Texture& layers, GLenum format) { return makeView(layers, {GL_TEXTURE_CUBE_MAP, format}); }
 
 Sampler makeSampler(const Functions& gl, GLenum magFilter, GLenum minFilter, GLenum wrapS, GLenum wrapT) {
   GLuint id = 0;

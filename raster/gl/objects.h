@@ -64,6 +64,15 @@ struct TextureShape {
   int levels = 1;
 };
 Texture makeTexture(const Functions& gl, const TextureShape& shape);
+
+// What another texture's storage is seen as, from its first level and layer on.
+struct ViewShape {
+  GLenum target;
+  GLenum format;
+  int levels = 1;
+  int layers = 6;
+};
+Texture makeView(const Texture& texture, const ViewShape& shape);
 // The six layers of a GL_TEXTURE_2D_ARRAY as a cube map.
 Texture makeCubeView(const Texture& layers, GLenum format);
 
