@@ -2,13 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "scenes/error.h"
+#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {
@@ -17,19 +16,12 @@ namespace fs = std::filesystem;
 
 class Files : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "probebench-files-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.file(name); }
   std::size_t fileCount() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 Failure failureOf(auto function) {
@@ -80,7 +72,7 @@ TEST_F(Files, SymbolicLink_StaysAndItsTargetIsReplaced) {
 
 TEST_F(Files, UnreadableFile_IsNamedWithTheReason) {
   EXPECT_EQ(failureOf([&] { readFile(path("absent")); }), Failure::input);
-  EXPECT_EQ(failureOf([&] { readFile(folder_.string()); }), Failure::input);
+  EXPECT_EQ(failureOf([&] { readFile(folder_.path().string()); }), Failure::input);
   try {
     readFile(path("absent"));
   } catch (const Error& error) {

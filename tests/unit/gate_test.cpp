@@ -10,6 +10,7 @@
 
 #include "scenes/error.h"
 #include "scenes/files.h"
+#include "tests/temporary_folder.h"
 #include "tests/unit/sample_results.h"
 
 namespace pb {
@@ -407,16 +408,8 @@ TEST(Baseline, EditedByHand_IsRefused) {
 
 class Bless : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "probebench-bless-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    path_ = (folder_ / "baseline.json").string();
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
-  std::string path_;
+  TemporaryFolder folder_;
+  const std::string path_ = folder_.file("baseline.json");
 };
 
 TEST_F(Bless, WritesWhatCheckPasses) {
