@@ -1,0 +1,12 @@
+#version 450 core
+// What lies behind a transmitting object's surface: normal on the viewer's side, so inward, and distance from the viewer.
+#define PB_FUNC
+#include "raster/shaders/blocks.glsl"
+#include "raster/shaders/surface_fetch.glsl"
+
+layout(location = 0) out vec4 backFace;
+
+void main() {
+  Fragment fragment = makeFragment();
+  backFace = vec4(readSurface(fragment).normal, length(vec3(pass.view.origin) - worldPosition));
+}
