@@ -61,11 +61,16 @@ std::string probes(const Scene& scene) {
   std::string lines;
   for (const Instance& instance : scene.instances) {
     const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
-    if (!material.isSpecularDominant) continue;
-    lines += fmt::format("reflective '{}', material '{}' ({}): {}\n", instance.name, material.name, reasonFor(material),
-                         placeOf(scene.nodes[static_cast<std::size_t>(instance.node)].probe));
+    if (!material.isSpecularDominant && !ownsProbe(scene, instance)) continue;
+    lines += fmt::format("reflective '{}', material '{}' ({}): {}{}\n", instance.name, material.name,
+                         reasonFor(material), placeOf(scene.nodes[static_cast<std::size_t>(instance.node)].probe),
+                         material.isSpecularDominant ? "" : ", as the node's extras want");
   }
   return lines.empty() ? "reflective nothing, so there are no probes\n" : lines;
+}
+
+std::string shadows(const Scene& scene) {
+  return fmt::format("shadows    {}\n", scene.castsShadows ? "traced" : "none");
 }
 
 std::string environment(const Scene& scene) {
@@ -86,7 +91,8 @@ std::string sentences(const char* kind, const std::vector<std::string>& list) {
 
 std::string describe(const Scene& scene) {
   return fmt::format("scene      {}\n", scene.name) + counts(scene) + duration(scene) + bounds(scene) + cameras(scene) +
-         probes(scene) + environment(scene) + sentences("note:", scene.notes) + sentences("warning:", scene.warnings);
+         probes(scene) + environment(scene) + shadows(scene) + sentences("note:", scene.notes) +
+         sentences("warning:", scene.warnings);
 }
 
 }  // namespace pb

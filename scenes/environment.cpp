@@ -56,32 +56,11 @@ std::vector<ImageRgba> facesOf(const shading::Sky& sky, int faceSize) {
   return faces;
 }
 
-// Replaces what no light can be. Infinities occur where a half-float file was saved from too bright a picture.
-void repair(ImageRgba& image, const std::string& name, std::vector<std::string>& warnings) {
-  float largest = 0.0f;
-  for (const glm::vec4& p : image)
-    for (int c = 0; c < 3; ++c)
-      if (std::isfinite(p[c])) largest = std::max(largest, p[c]);
-  std::size_t dark = 0, infinite = 0;
-  for (glm::vec4& p : image) {
-    for (int c = 0; c < 3; ++c) {
-      if (p[c] >= 0.0f && std::isfinite(p[c])) continue;
-      const bool tooBright = p[c] > 0.0f;
-      ++(tooBright ? infinite : dark);
-      p[c] = tooBright ? largest : 0.0f;
-    }
-    p.w = 1.0f;
-  }
-  if (dark > 0) warnings.push_back(fmt::format("environment '{}': {} negative or NaN values became 0", name, dark));
-  if (infinite > 0)
-    warnings.push_back(fmt::format("environment '{}': {} infinite values became {}", name, infinite, largest));
-}
-
 ImageRgba readRadiance(const std::string& path, std::vector<std::string>& warnings) {
   LoadedImage image = readImage(path);
   if (image.encoding == Encoding::srgb)
     for (glm::vec4& p : image.pixels) p = {linearFromSrgb(p.x), linearFromSrgb(p.y), linearFromSrgb(p.z), p.w};
-  repair(image.pixels, path, warnings);
+  repairRadiance(image.pixels, path, warnings);
   return std::move(image.pixels);
 }
 
@@ -210,6 +189,29 @@ Environment loadEnvironment(const std::string& text, std::vector<std::string>& w
     throwInputError("environment wants sky, black, white, constant?r=..&g=..&b=.. or an image file, '{}' is none",
                     text);
   return makeCubeEnvironment(text, loadEquirectangular(text, warnings));
+}
+
+// Infinities occur where a half-float file was saved from too bright a picture.
+void repairRadiance(ImageRgba& image, const std::string& name, std::vector<std::string>& warnings) {
+  const auto isTooBright = [](float value) { return value > kLargestRadiance; };
+  float largest = 0.0f;
+  for (const glm::vec4& p : image)
+    for (int c = 0; c < 3; ++c)
+      if (!isTooBright(p[c])) largest = std::max(largest, p[c]);  // NaN never is the larger one
+  std::size_t dark = 0, bright = 0;
+  for (glm::vec4& p : image) {
+    for (int c = 0; c < 3; ++c) {
+      const float value = p[c];
+      if (value >= 0.0f && !isTooBright(value)) continue;
+      ++(isTooBright(value) ? bright : dark);
+      p[c] = isTooBright(value) ? largest : 0.0f;
+    }
+    p.w = 1.0f;
+  }
+  if (dark > 0) warnings.push_back(fmt::format("environment '{}': {} negative or NaN values became 0", name, dark));
+  if (bright > 0)
+    warnings.push_back(fmt::format("environment '{}': {} values that are infinite or above {} became {}", name, bright,
+                                   kLargestRadiance, largest));
 }
 
 std::vector<ImageRgba> cubeFacesOf(const ImageRgba& image, int faceSize) {

@@ -25,9 +25,15 @@ Environment makeCubeEnvironment(std::string name, std::vector<ImageRgba> faces);
 // "sky" (procedural), "black", "white", "constant?r=..&g=..&b=..", a path of an equirectangular image (.exr, .hdr,
 // ...), or six images "PREFIX{px,nx,py,ny,pz,nz}.EXT" written as one path with a '*' in the place of px..nz.
 // Equirectangular images are resampled to cube faces; u = 0.5 is -Z, u grows towards +X, v = 0 is +Y.
-// NaN and negative values become 0 and infinities the largest finite value of the image, each with a warning in
-// `warnings`.
+// Values are repaired by repairRadiance().
 Environment loadEnvironment(const std::string& text, std::vector<std::string>& warnings);
+
+// Replaces what no light can be: NaN and negative values become 0; infinities and values above kLargestRadiance become
+// the largest of the others. Each comes with a warning that counts them. Alpha becomes 1.
+void repairRadiance(ImageRgba& image, const std::string& name, std::vector<std::string>& warnings);
+
+// W/(sr m^2). The sun has 2e7; sums over millions of texels and products of two such numbers still fit into float.
+inline constexpr float kLargestRadiance = 1e9f;
 
 // Ambient light of six faces: projection onto spherical harmonics of bands 0 to 2 (Ramamoorthi and Hanrahan 2001).
 shading::Ambient projectAmbient(const std::vector<ImageRgba>& faces);

@@ -194,8 +194,16 @@ class Writer {
     result["emissiveFactor"] = arrayOf(emission.factor, 3);
     if (emission.scale != 1.0f)
       extension(result, "KHR_materials_emissive_strength")["emissiveStrength"] = emission.scale;
+    addAlphaMode(c.alpha, result);
     addMaterialExtensions(material, result);
+    if (json extras = gltf::materialExtras(material); !extras.is_null()) result["extras"] = std::move(extras);
     return result;
+  }
+
+  static void addAlphaMode(const glm::vec4& alpha, json& result) {
+    static constexpr std::array kModes = {"OPAQUE", "MASK", "BLEND"};  // in the order of kAlpha*
+    result["alphaMode"] = kModes.at(static_cast<std::size_t>(alpha.x));
+    if (alpha.x == shading::kAlphaMask) result["alphaCutoff"] = alpha.y;
   }
 
   void addMaterialExtensions(const Material& material, json& result) {

@@ -167,8 +167,20 @@ void setAttenuation(Material& material, glm::vec3 color, float distance) {
   material.attenuationColor = color;
   material.attenuationDistance = distance;
   // Beer-Lambert: exp(-absorption distance) = color.
-  const glm::vec3 absorption = -glm::log(glm::max(color, glm::vec3(1e-6f))) / distance;
+  // A difference, because a sign would make a negative zero of white.
+  const glm::vec3 absorption = (0.0f - glm::log(glm::max(color, glm::vec3(1e-6f)))) / distance;
   material.constants.absorption = glm::vec4(absorption, 0.0f);
+}
+
+bool hasSpecularLobe(const Material& material) {
+  const float kind = material.constants.kind.x;
+  return kind == shading::kSurfaceMirror || kind == shading::kSurfaceGlass || kind == shading::kSurfaceGlossy;
+}
+
+bool ownsProbe(const Scene& scene, const Instance& instance) {
+  const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
+  const std::optional<ProbeSettings>& settings = scene.nodes[static_cast<std::size_t>(instance.node)].probe;
+  return settings ? settings->enabled && hasSpecularLobe(material) : material.isSpecularDominant;
 }
 
 glm::vec4 sampleTrack(const Track& track, double timeSeconds) {

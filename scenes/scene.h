@@ -105,7 +105,7 @@ Material makeMetalMaterial(std::string name, glm::vec3 eta, glm::vec3 k, float r
 // Clear smooth glass that fills the mesh; thickness (metres) is what rasterisers assume that light crosses.
 Material makeGlassMaterial(std::string name, float ior, float thickness = 1.0f);
 
-// Where the probe of a node's instances stands. Distances in metres.
+// Whether the node's instances with a specular lobe get a probe, and where it stands. Distances in metres.
 struct ProbeSettings {
   bool enabled = true;
   std::optional<glm::vec3> position;  // in the node's space; otherwise the centre of the world bounding box
@@ -196,6 +196,13 @@ struct Scene {
   std::vector<std::string> warnings;  // what the loader ignored, one sentence each
   std::vector<std::string> notes;     // what the loader added (default camera, sky, ...)
 };
+
+// Whether the material reflects or refracts specularly at all.
+bool hasSpecularLobe(const Material& material);
+
+// Whether the instance is shaded by a probe of its own: one with a specular lobe, if its node asks for a probe; without
+// settings at the node, a specular-dominant one.
+bool ownsProbe(const Scene& scene, const Instance& instance);
 
 // Last steps of building any scene: checks indices, adds a camera that frames everything if there is none, computes
 // durationSeconds, gives an unused environment its black faces.

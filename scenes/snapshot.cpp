@@ -99,15 +99,14 @@ const Texture* emissionTextureOf(const Snapshot& snapshot, const Material& mater
   return textureAt(*snapshot.scene, material.emissionTexture);
 }
 
-// One probe a node: all its specular-dominant instances share it.
+// One probe a node: all its instances that own one share it.
 void addProbes(Snapshot& snapshot, const std::vector<glm::mat4>& world) {
   std::map<int, int> probeOfNode;
   std::vector<Bounds> bounds;
   for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
     SnapshotInstance& instance = snapshot.instances[i];
     const int node = snapshot.scene->instances[i].node;
-    const std::optional<ProbeSettings>& settings = snapshot.scene->nodes[static_cast<std::size_t>(node)].probe;
-    if (!snapshot.materialOf(instance).isSpecularDominant || (settings && !settings->enabled)) continue;
+    if (!ownsProbe(*snapshot.scene, snapshot.scene->instances[i])) continue;
     const auto [found, isNew] = probeOfNode.try_emplace(node, static_cast<int>(snapshot.probes.size()));
     if (isNew) {
       snapshot.probes.push_back({glm::vec3(0.0f), {}, snapshot.scene->probeNear});

@@ -26,11 +26,11 @@ double number(const json& value, const std::string& place, double minimum, doubl
   return value.get<double>();
 }
 
-glm::vec3 vector(const json& value, const std::string& place, double minimum = -kLargest) {
+glm::vec3 vector(const json& value, const std::string& place, double minimum = -kLargest, double maximum = kLargest) {
   if (!value.is_array() || value.size() != 3)
     throwInputError("{} wants an array of 3 numbers, got {}", place, value.dump());
-  return glm::dvec3(number(value[0], place, minimum, kLargest), number(value[1], place, minimum, kLargest),
-                    number(value[2], place, minimum, kLargest));
+  return glm::dvec3(number(value[0], place, minimum, maximum), number(value[1], place, minimum, maximum),
+                    number(value[2], place, minimum, maximum));
 }
 
 // Grey may be written as one number.
@@ -60,10 +60,21 @@ shading::Sky readSky(const json& sky, const std::string& place, float limit) {
   result.horizon = glm::vec4(colorAt("horizon"), limit);
   result.zenith = glm::vec4(colorAt("zenith"), 0.0f);
   result.below = glm::vec4(colorAt("below"), 0.0f);
+  result.glow = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  result.toGlow = glm::vec4(0.0f, 1.0f, 0.0f, 0.0f);
+  if (!sky.contains("glow")) return result;
   const double glowPower = number(member(sky, "glowPower", place), place + "/glowPower", 0.0, kLargest);
   result.glow = glm::vec4(colorAt("glow"), static_cast<float>(glowPower));
   result.toGlow = glm::vec4(unitVector(member(sky, "toGlow", place), place + "/toGlow"), 0.0f);
   return result;
+}
+
+// `owner` is "" or names a node or material, with a colon and a space behind it.
+void warnOfUnknownMembers(const json& object, const std::string& owner, const std::string& place,
+                          const std::vector<std::string>& known, std::vector<std::string>& warnings) {
+  for (const auto& [key, value] : object.items())
+    if (std::ranges::find(known, key) == known.end())
+      warnings.push_back(fmt::format("{}a member of {} is ignored: {}", owner, place, unknownMessage(key, known)));
 }
 
 json toJson(const glm::vec3& v) { return {v.x, v.y, v.z}; }
@@ -109,30 +120,72 @@ std::vector<ImageRgba> readFaces(const Document& document, const json& bufferVie
   return faces;
 }
 
-Environment readEnvironment(const Document& document, const json& value, const std::string& place) {
-  Environment environment;
-  if (value.is_object() && value.contains("faces")) {
-    environment = makeCubeEnvironment("cube map", readFaces(document, value["faces"], place + "/faces"));
-  } else {
-    const json& sky = member(value, "sky", place);
-    const std::string skyPlace = place + "/sky";
-    const double limit = number(member(sky, "limit", skyPlace), skyPlace + "/limit", 0.0, kLargest);
-    environment = makeGradientEnvironment(readSky(sky, skyPlace, static_cast<float>(limit)));
+Environment readFacesEnvironment(const Document& document, const json& faces, const std::string& place,
+                                 std::vector<std::string>& warnings) {
+  std::vector<ImageRgba> images = readFaces(document, faces, place);
+  for (ImageRgba& image : images) repairRadiance(image, place, warnings);
+  return makeCubeEnvironment("cube map", std::move(images));
+}
+
+Environment readGradientEnvironment(const json& sky, const std::string& place, std::vector<std::string>& warnings) {
+  if (!sky.is_object()) throwInputError("{} wants an object, got {}", place, sky.dump());
+  warnOfUnknownMembers(sky, "", place, {"horizon", "zenith", "below", "glow", "glowPower", "toGlow", "limit"},
+                       warnings);
+  const double limit = number(sky.value("limit", json(0.0)), place + "/limit", 0.0, kLargest);
+  return makeGradientEnvironment(readSky(sky, place, static_cast<float>(limit)));
+}
+
+// The one of its three members that says what the sky is.
+std::string kindOfEnvironment(const json& value, const std::string& place) {
+  if (!value.is_object()) throwInputError("{} wants an object, got {}", place, value.dump());
+  std::string kind;
+  for (const char* key : {"constant", "sky", "faces"}) {
+    if (!value.contains(key)) continue;
+    if (!kind.empty()) throwInputError("{} wants one of constant, sky and faces, got {} and {}", place, kind, key);
+    kind = key;
   }
-  const json& name = member(value, "name", place);
-  if (!name.is_string()) throwInputError("{}/name wants a string, got {}", place, name.dump());
-  environment.name = name;
-  environment.ambient = readAmbient(member(value, "ambient", place), place + "/ambient");
+  if (kind.empty()) throwInputError("{} wants one of constant, sky and faces, got none", place);
+  return kind;
+}
+
+Environment readEnvironment(const Document& document, const json& value, const std::string& place,
+                            std::vector<std::string>& warnings) {
+  const std::string kind = kindOfEnvironment(value, place);
+  warnOfUnknownMembers(value, "", place, {"name", "ambient", "constant", "sky", "faces"}, warnings);
+  const std::string kindPlace = place + "/" + kind;
+  Environment environment = kind == "constant" ? makeConstantEnvironment(color(value[kind], kindPlace))
+                            : kind == "sky"    ? readGradientEnvironment(value[kind], kindPlace, warnings)
+                                               : readFacesEnvironment(document, value[kind], kindPlace, warnings);
+  if (value.contains("name")) {
+    const json& name = value["name"];
+    if (!name.is_string()) throwInputError("{}/name wants a string, got {}", place, name.dump());
+    environment.name = name;
+  }
+  if (value.contains("ambient")) environment.ambient = readAmbient(value["ambient"], place + "/ambient");
   return environment;
 }
 
-void readOwnExtras(const Document& document, const json& own, Scene& scene) {
+bool readShadows(const json& value, const std::string& place) {
+  if (value != "none" && value != "traced")
+    throwInputError("{} wants \"none\" or \"traced\", got {}", place, value.dump());
+  return value == "traced";
+}
+
+// Returns whether there is an environment among them.
+bool readOwnExtras(const Document& document, const json& own, Scene& scene) {
   const std::string place = "extras.probebench";
   const json& schema = member(own, "schema", place);
   if (schema != 1) throwInputError("{} wants schema 1, got {}", place, schema.dump());
-  scene.environment = readEnvironment(document, member(own, "environment", place), place + "/environment");
-  scene.probeNear = static_cast<float>(number(member(own, "probeNear", place), place + "/probeNear", 1e-6, kLargest));
-  scene.framesPerSecond = number(member(own, "framesPerSecond", place), place + "/framesPerSecond", 1e-3, 1e6);
+  warnOfUnknownMembers(own, "", place, {"schema", "environment", "shadows", "probeNear", "framesPerSecond"},
+                       scene.warnings);
+  if (own.contains("environment"))
+    scene.environment = readEnvironment(document, own["environment"], place + "/environment", scene.warnings);
+  if (own.contains("shadows")) scene.castsShadows = readShadows(own["shadows"], place + "/shadows");
+  if (own.contains("probeNear"))
+    scene.probeNear = static_cast<float>(number(own["probeNear"], place + "/probeNear", 1e-6, kLargest));
+  if (own.contains("framesPerSecond"))
+    scene.framesPerSecond = number(own["framesPerSecond"], place + "/framesPerSecond", 1e-3, 1e6);
+  return own.contains("environment");
 }
 
 // Of the three.js cube-camera benchmark. Its sky is stored in bytes, so that no channel exceeds 1.
@@ -160,9 +213,9 @@ bool readCubeCameraExtras(const json& extras, Scene& scene) {
 
 bool readSceneExtras(const Document& document, const json& extras, Scene& scene) {
   if (!extras.is_object()) return false;
-  if (!extras.contains("probebench")) return readCubeCameraExtras(extras, scene);
-  readOwnExtras(document, extras["probebench"], scene);
-  return true;
+  bool hasEnvironment = readCubeCameraExtras(extras, scene);
+  if (extras.contains("probebench")) hasEnvironment |= readOwnExtras(document, extras["probebench"], scene);
+  return hasEnvironment;
 }
 
 std::optional<ProbeSettings> readProbeExtras(const json& extras, const std::string& node,
@@ -172,16 +225,38 @@ std::optional<ProbeSettings> readProbeExtras(const json& extras, const std::stri
   const json& probe = extras["probe"];
   if (probe.is_boolean()) return ProbeSettings{.enabled = probe, .position = {}};
   if (!probe.is_object()) throwInputError("{} wants true, false or an object, got {}", place, probe.dump());
-  const std::vector<std::string> known = {"enabled", "position"};
-  for (const auto& [key, value] : probe.items())
-    if (std::ranges::find(known, key) == known.end())
-      warnings.push_back(fmt::format("{}: a member of {} is ignored: {}", node, place, unknownMessage(key, known)));
+  warnOfUnknownMembers(probe, node + ": ", place, {"enabled", "position"}, warnings);
   ProbeSettings settings;
   const json enabled = probe.value("enabled", json(true));
   if (!enabled.is_boolean()) throwInputError("{}/enabled wants true or false, got {}", place, enabled.dump());
   settings.enabled = enabled;
   if (probe.contains("position")) settings.position = vector(probe["position"], place + "/position");
   return settings;
+}
+
+void readMaterialExtras(const json& extras, const std::string& owner, Material& material,
+                        std::vector<std::string>& warnings) {
+  const std::string place = "extras.probebench";
+  if (!extras.is_object() || !extras.contains("probebench")) return;
+  const json& own = extras["probebench"];
+  if (!own.is_object()) throwInputError("{} wants an object, got {}", place, own.dump());
+  warnOfUnknownMembers(own, owner + ": ", place, {"eta", "k"}, warnings);
+  if (!own.contains("eta") && !own.contains("k")) return;
+  // Published values of metals are 0.03 to 8 and 0 to 14 (refractiveindex.info, visible light); with eta = k = 0 the
+  // Fresnel equations are undefined.
+  constexpr double kLargestIndex = 100.0;
+  material.constants.conductorEta =
+      glm::vec4(vector(member(own, "eta", place), place + "/eta", 1e-3, kLargestIndex), 1.0f);
+  material.constants.conductorK = glm::vec4(vector(member(own, "k", place), place + "/k", 0.0, kLargestIndex), 0.0f);
+  if (material.constants.factors.x == 0.0f)
+    warnings.push_back(owner + ": its eta and k are those of a metal, but its metallic factor is 0");
+}
+
+json materialExtras(const Material& material) {
+  json own;
+  if (material.constants.conductorEta.w > 0.5f)
+    own = {{"eta", toJson(material.constants.conductorEta)}, {"k", toJson(material.constants.conductorK)}};
+  return own.is_null() ? json() : json{{"probebench", own}};
 }
 
 json sceneExtras(const Scene& scene, const AddBufferView& addBufferView) {
@@ -193,6 +268,7 @@ json sceneExtras(const Scene& scene, const AddBufferView& addBufferView) {
     environment["sky"] = toJson(source.sky);
   const json own = {{"schema", 1},
                     {"environment", environment},
+                    {"shadows", scene.castsShadows ? "traced" : "none"},
                     {"probeNear", scene.probeNear},
                     {"framesPerSecond", scene.framesPerSecond}};
   return {{"probebench", own}};

@@ -1,6 +1,7 @@
-// What glTF can't say: sky, ambient light, probes, frame rate. Written to and read from scenes[].extras.probebench
-// (schema: results/schema/scene-extras.schema.json); also read are nodes[].extras.probe and the extras of the three.js
-// cube-camera benchmark: ambientRadiance, sky, skyRadiance, cubeCamera.near.
+// What glTF can't say. Written to and read from scenes[].extras.probebench (sky, ambient light, shadows, near plane of
+// probes, frame rate), materials[].extras.probebench (a metal's index of refraction) and nodes[].extras.probe; their
+// JSON Schema is results/schema/scene-extras.schema.json. Also read are the extras of two other benchmarks' scenes:
+// ambientRadiance, sky, skyRadiance, cubeCamera.near.
 #pragma once
 
 #include <functional>
@@ -15,7 +16,8 @@
 
 namespace pb::gltf {
 
-// Sets what the extras of a glTF scene say; returns whether that included an environment.
+// Sets what the extras of a glTF scene say; returns whether that included an environment. extras.probebench has the
+// last word.
 bool readSceneExtras(const Document& document, const nlohmann::json& extras, Scene& scene);
 
 // nodes[].extras.probe: true, false or {"enabled": ..., "position": [x, y, z]}. Warnings about other members name the
@@ -23,10 +25,16 @@ bool readSceneExtras(const Document& document, const nlohmann::json& extras, Sce
 std::optional<ProbeSettings> readProbeExtras(const nlohmann::json& extras, const std::string& node,
                                              std::vector<std::string>& warnings);
 
+// materials[].extras.probebench. Warnings start with `owner`, the material.
+void readMaterialExtras(const nlohmann::json& extras, const std::string& owner, Material& material,
+                        std::vector<std::string>& warnings);
+
 // Adds bytes to the file and returns their buffer view.
 using AddBufferView = std::function<int(std::string_view bytes)>;
 
 nlohmann::json sceneExtras(const Scene& scene, const AddBufferView& addBufferView);
 nlohmann::json probeExtras(const ProbeSettings& probe);
+// null where there is nothing to say.
+nlohmann::json materialExtras(const Material& material);
 
 }  // namespace pb::gltf

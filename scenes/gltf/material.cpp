@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/vector_relational.hpp>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
 
 #include "scenes/error.h"
+#include "scenes/gltf/extras.h"
 #include "scenes/gltf/validate.h"
 #include "scenes/image_io.h"
 
@@ -15,6 +18,9 @@ namespace pb::gltf {
 namespace {
 
 using nlohmann::json;
+
+// Of glass and clear plastics it is 1.3 to 2, of diamond 2.4, and of germanium, the highest, 4 in the infrared.
+constexpr float kLargestIor = 5.0f;
 
 enum class Content { color, data };  // colours are sRGB in integer formats, data is linear
 
@@ -158,8 +164,10 @@ class MaterialReader {
 
   Material read() {
     readFactors();
+    readAlpha();
     readTextures();
     readExtensions();
+    if (json_.contains("extras")) readMaterialExtras(json_["extras"], place_, material_, scene_.warnings);
     classify();
     warnIgnored();
     return material_;
@@ -172,10 +180,24 @@ class MaterialReader {
     const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
     shading::MaterialConstants& c = material_.constants;
     for (int i = 0; i < 4; ++i) c.baseColor[i] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+    if (glm::any(glm::greaterThan(c.baseColor, glm::vec4(1.0f)))) {
+      // Surfaces that reflect more than they receive would make light without end under global illumination.
+      warn(fmt::format("base colours are at most 1, ({:.4g}, {:.4g}, {:.4g}, {:.4g}) is cut to that", c.baseColor.x,
+                       c.baseColor.y, c.baseColor.z, c.baseColor.w));
+      c.baseColor = glm::min(c.baseColor, glm::vec4(1.0f));
+    }
     for (int i = 0; i < 3; ++i) c.emission[i] = static_cast<float>(source_.emissiveFactor[static_cast<std::size_t>(i)]);
     c.emission.w = static_cast<float>(source_.normalTexture.scale);
     c.factors = {pbr.metallicFactor, pbr.roughnessFactor, source_.occlusionTexture.strength, 0.0};
     material_.doubleSided = source_.doubleSided;
+  }
+
+  void readAlpha() {
+    static const std::map<std::string, float> kModes = {
+        {"OPAQUE", shading::kAlphaOpaque}, {"MASK", shading::kAlphaMask}, {"BLEND", shading::kAlphaBlend}};
+    const auto mode = kModes.find(source_.alphaMode);
+    if (mode == kModes.end()) throwInputError("alpha modes are OPAQUE, MASK and BLEND, got '{}'", source_.alphaMode);
+    material_.constants.alpha = {mode->second, static_cast<float>(source_.alphaCutoff), 0.0f, 0.0f};
   }
 
   // Returns the texture's index in the scene, -1 for none, and completes the slot.
@@ -218,19 +240,35 @@ class MaterialReader {
     const float strength = Extension(json_, "KHR_materials_emissive_strength").number("emissiveStrength", 1.0f);
     c.emission = glm::vec4(strength * glm::vec3(c.emission), c.emission.w);
     c.factors.w = Extension(json_, "KHR_materials_transmission").number("transmissionFactor", 0.0f);
-    c.kind.y = Extension(json_, "KHR_materials_ior").number("ior", 1.5f);
-    if (c.kind.y < 1.0f) {
-      warn(fmt::format("indices of refraction below 1 are not supported, 1.5 stands for {}", c.kind.y));
-      c.kind.y = 1.5f;
-    }
+    c.kind.y = checkedIor(Extension(json_, "KHR_materials_ior").number("ior", 1.5f));
     const Extension specular(json_, "KHR_materials_specular");
     c.specular =
         glm::vec4(specular.color("specularColorFactor", glm::vec3(1.0f)), specular.number("specularFactor", 1.0f));
     const Extension volume(json_, "KHR_materials_volume");
     c.kind.z = volume.number("thicknessFactor", 0.0f);
-    setAttenuation(material_, volume.color("attenuationColor", glm::vec3(1.0f)),
-                   volume.number("attenuationDistance", std::numeric_limits<float>::infinity()));
+    setAttenuation(material_, volume.color("attenuationColor", glm::vec3(1.0f)), attenuationDistance(volume));
     c.kind.w = Extension(json_, "KHR_materials_dispersion").number("dispersion", 0.0f);
+  }
+
+  float checkedIor(float ior) {
+    if (ior < 1.0f) {
+      warn(fmt::format("indices of refraction below 1 are not supported, 1.5 stands for {}", ior));
+      return 1.5f;
+    }
+    if (ior > kLargestIor) {
+      warn(fmt::format("no transparent material has an index of refraction of {}, {} is used", ior, kLargestIor));
+      return kLargestIor;
+    }
+    return ior;
+  }
+
+  // Some exporters write 0 for no attenuation.
+  float attenuationDistance(const Extension& volume) {
+    constexpr float kNone = std::numeric_limits<float>::infinity();
+    const float distance = volume.number("attenuationDistance", kNone);
+    if (distance > 0.0f) return distance;
+    warn("an attenuation distance of 0 is taken as none");
+    return kNone;
   }
 
   // Mean of metallic (x) and roughness (y) over the texture.
@@ -261,7 +299,8 @@ class MaterialReader {
   }
 
   void warnIgnored() {
-    if (source_.alphaMode != "OPAQUE") warn(fmt::format("alpha mode {} is rendered opaque", source_.alphaMode));
+    if (material_.constants.kind.x == shading::kSurfaceGlass && meanMetallicRoughness().x > 0.0f)
+      warn("metallic is not rendered on a transmitting surface");
     for (const auto& [name, value] : source_.extensions)
       if (!isSupportedExtension(name)) warn("extension " + name + " is ignored");
     for (const auto& [extension, key] :
@@ -306,7 +345,7 @@ void readMaterials(const Document& document, Scene& scene) {
   }
   if (!needsDefaultMaterial(document.model)) return;
   scene.materials.push_back(defaultMaterial());
-  scene.warnings.emplace_back("primitives without material are rendered as white diffuse");
+  scene.warnings.emplace_back("primitives without material are rendered as glTF's default, white metal of roughness 1");
 }
 
 int materialIndex(const Document& document, const tinygltf::Primitive& primitive) {

@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, BadScene, ::testing::ValuesIn(sceneFiles()), []
 TEST(BadSceneCorpus, HasAtLeastFortyFiles) { EXPECT_GE(sceneFiles().size(), 40U); }
 
 TEST(SceneReference, ThatIsWrong_IsRefusedNamingTheValue) {
-  const std::string odd = pathOf("warn-alpha-mask.gltf");
+  const std::string odd = pathOf("warn-skin.gltf");
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "name"},
       {"/nonexistent/scene.glb", "/nonexistent/scene.glb"},
@@ -66,7 +66,7 @@ TEST(SceneReference, ThatIsWrong_IsRefusedNamingTheValue) {
       {odd + "?mirror=triangel", "nearest is 'triangle'"},
       {odd + "?miror=all", "nearest is 'mirror'"},
       {odd + "?environment=/nonexistent.exr", "/nonexistent.exr"},
-      {odd + "?environment=" + odd, "warn-alpha-mask.gltf"},
+      {odd + "?environment=" + odd, "warn-skin.gltf"},
   };
   for (const auto& [reference, inMessage] : cases) {
     try {

@@ -128,12 +128,31 @@ TEST_F(EnvironmentFile, BadValuesAreRepaired_WithWarnings) {
   image(1, 1) = {std::numeric_limits<float>::infinity(), 1.0f, 1.0f};
   image(2, 1) = {std::nanf(""), -1.0f, 1.0f};
   const Environment environment = load(image);
-  EXPECT_THAT(warnings_, ::testing::UnorderedElementsAre(HasSubstr("2 negative or NaN"), HasSubstr("1 infinite")));
+  EXPECT_THAT(warnings_,
+              ::testing::UnorderedElementsAre(HasSubstr("2 negative or NaN"), HasSubstr("1 values that are infinite")));
   for (const ImageRgba& face : environment.faces)
     for (const glm::vec4& p : face) {
       EXPECT_GE(p.x, 0.0f);
       EXPECT_LE(p.x, 1.0f);
     }
+}
+
+TEST(RepairRadiance, CutsTooBrightValuesToTheLargestOther) {
+  ImageRgba image(2, 2, {0.5f, 1, 2, 0.25f});
+  image(1, 0) = {1e30f, 7, 1e9f, 1};
+  std::vector<std::string> warnings;
+  repairRadiance(image, "sun", warnings);
+  EXPECT_EQ(image(1, 0), glm::vec4(1e9f, 7, 1e9f, 1));
+  EXPECT_EQ(image(0, 0), glm::vec4(0.5f, 1, 2, 1));
+  EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("'sun': 1 values")));
+}
+
+TEST(RepairRadiance, OfNothingButInfinities_IsBlack) {
+  ImageRgba image(2, 1, glm::vec4(std::numeric_limits<float>::infinity()));
+  std::vector<std::string> warnings;
+  repairRadiance(image, "sun", warnings);
+  EXPECT_EQ(image(0, 0), glm::vec4(0, 0, 0, 1));
+  EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("6 values")));
 }
 
 TEST_F(EnvironmentFile, ThatIsNotTwiceAsWideAsHigh_IsStretchedWithAWarning) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "scenes/describe.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/image_io.h"
@@ -182,42 +183,141 @@ struct KindCase {
   const char* name;
   const char* material;
   float kind;
+  bool isSpecularDominant;
 };
 
 class GltfKind : public ::testing::TestWithParam<KindCase> {};
 
-TEST_P(GltfKind, FollowsTheSpecularDominantRule) {
+TEST_P(GltfKind, FollowsFromTheFactors) {
   GltfFile file;
   file.material() = json::parse(GetParam().material);
-  EXPECT_EQ(constantsOf(file).kind.x, GetParam().kind);
+  const Material material = file.load().materials.at(0);
+  EXPECT_EQ(material.constants.kind.x, GetParam().kind);
+  EXPECT_EQ(material.isSpecularDominant, GetParam().isSpecularDominant);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Materials, GltfKind,
     ::testing::Values(
-        KindCase{"SmoothMetal", R"({"pbrMetallicRoughness": {"roughnessFactor": 0.29}})", shading::kSurfaceMirror},
-        KindCase{"RoughMetal", R"({"pbrMetallicRoughness": {"roughnessFactor": 0.3}})", shading::kSurfaceDiffuse},
+        KindCase{"SmoothMetal", R"({"pbrMetallicRoughness": {"roughnessFactor": 0}})", shading::kSurfaceMirror, true},
+        KindCase{"ShinyMetal", R"({"pbrMetallicRoughness": {"roughnessFactor": 0.29}})", shading::kSurfaceGlossy, true},
+        KindCase{"RoughMetal", R"({"pbrMetallicRoughness": {"roughnessFactor": 0.3}})", shading::kSurfaceGlossy, false},
         KindCase{"HalfMetal", R"({"pbrMetallicRoughness": {"metallicFactor": 0.5, "roughnessFactor": 0}})",
-                 shading::kSurfaceDiffuse},
+                 shading::kSurfaceGlossy, false},
+        KindCase{"Coated", R"({"pbrMetallicRoughness": {"metallicFactor": 0}})", shading::kSurfaceGlossy, false},
+        KindCase{"Matte",
+                 R"({"pbrMetallicRoughness": {"metallicFactor": 0},
+                     "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})",
+                 shading::kSurfaceDiffuse, false},
         KindCase{"Clear", R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.6}}})",
-                 shading::kSurfaceGlass},
-        KindCase{"HalfClear", R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.5}}})",
-                 shading::kSurfaceDiffuse},
+                 shading::kSurfaceGlass, true},
+        KindCase{"HalfClear",
+                 R"({"pbrMetallicRoughness": {"metallicFactor": 0},
+                     "extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.5}}})",
+                 shading::kSurfaceGlass, false},
         KindCase{"Unlit",
                  R"({"pbrMetallicRoughness": {"roughnessFactor": 0}, "extensions": {"KHR_materials_unlit": {}}})",
-                 shading::kSurfaceUnlit}),
+                 shading::kSurfaceUnlit, false}),
     [](const auto& test) { return test.param.name; });
 
-TEST(GltfMaterial, TextureMeans_DecideWhetherItIsAMirror) {
+TEST(GltfMaterial, TextureMeans_DecideWhetherItIsSpecularDominant) {
   // Half of the texels metallic 1 and roughness 0.5, half 0.6 and 0: means of 0.8 and 0.25.
   ImageRgba texels(2, 1, {0, 0.5f, 1, 1});
   texels(1, 0) = {0, 0, 0.6f, 1};
   GltfFile file;
   file.material()["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {
       {"index", file.addTexture(encodePng(texels, 8))}};
-  EXPECT_EQ(constantsOf(file).kind.x, shading::kSurfaceMirror);
+  EXPECT_TRUE(file.load().materials.at(0).isSpecularDominant);
   file.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0.6;
-  EXPECT_EQ(constantsOf(file).kind.x, shading::kSurfaceDiffuse);
+  EXPECT_FALSE(file.load().materials.at(0).isSpecularDominant);
+  // A texture may make any texel rough: no mirror, whatever its factors.
+  file.json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0;
+  EXPECT_EQ(constantsOf(file).kind.x, shading::kSurfaceGlossy);
+}
+
+TEST(GltfMaterial, OfPrimitivesWithoutOne_IsRoughWhiteMetal) {
+  const Scene scene = GltfFile().load();
+  const shading::MaterialConstants& c = scene.materials.at(0).constants;
+  EXPECT_EQ(c.kind.x, shading::kSurfaceGlossy);
+  EXPECT_EQ(c.baseColor, glm::vec4(1.0f));
+  EXPECT_EQ(glm::vec2(c.factors), glm::vec2(1.0f));
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("white metal of roughness 1")));
+}
+
+TEST(GltfMaterial, AlphaModes_AreReadWithTheirCutoff) {
+  GltfFile file;
+  file.material()["alphaMode"] = "BLEND";
+  EXPECT_EQ(constantsOf(file).alpha.x, shading::kAlphaBlend);
+  file.json["materials"][0]["alphaMode"] = "MASK";
+  EXPECT_EQ(constantsOf(file).alpha, glm::vec4(shading::kAlphaMask, 0.5f, 0, 0));
+  file.json["materials"][0]["alphaCutoff"] = 0.25;
+  EXPECT_EQ(constantsOf(file).alpha.y, 0.25f);
+  EXPECT_THAT(file.load().warnings, IsEmpty());
+}
+
+TEST(GltfMaterial, VolumeAttenuation_IsAbsorptionPerMetre) {
+  GltfFile file;
+  file.material() = json::parse(R"({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+    "KHR_materials_transmission": {"transmissionFactor": 1},
+    "KHR_materials_volume": {"attenuationDistance": 2, "attenuationColor": [1, 0.5, 0.25]}}})");
+  const glm::vec3 absorption(constantsOf(file).absorption);
+  // exp(-a d) is the colour after the attenuation distance, and its square after twice that.
+  const shading::vec3 left = shading::transmittance(absorption, 4.0f);
+  EXPECT_LT(glm::distance(left, glm::vec3(1, 0.25f, 0.0625f)), 1e-6f);
+  EXPECT_EQ(constantsOf(file).kind.z, 0.0f);  // without thicknessFactor it is thin-walled
+}
+
+TEST(GltfMaterial, ConductorExtras_AreItsIndexOfRefraction) {
+  GltfFile file;
+  file.material()["extras"]["probebench"] = {{"eta", {0.2, 0.9, 1.1}}, {"k", {3.9, 2.4, 2.2}}};
+  const Scene scene = file.load();
+  EXPECT_EQ(scene.materials.at(0).constants.conductorEta, glm::vec4(0.2f, 0.9f, 1.1f, 1.0f));
+  EXPECT_EQ(scene.materials.at(0).constants.conductorK, glm::vec4(3.9f, 2.4f, 2.2f, 0.0f));
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  file.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  file.json["materials"][0]["extras"]["probebench"]["kappa"] = 1;
+  EXPECT_THAT(file.load().warnings,
+              ElementsAre("material 0: a member of extras.probebench is ignored: 'kappa' is not known; known are "
+                          "'eta', 'k'",
+                          "material 0: its eta and k are those of a metal, but its metallic factor is 0"));
+}
+
+struct OddMaterial {
+  const char* name;
+  const char* material;
+  const char* inWarning;
+};
+
+class GltfOddMaterial : public ::testing::TestWithParam<OddMaterial> {};
+
+TEST_P(GltfOddMaterial, LoadsWithOneWarning) {
+  GltfFile file;
+  file.material() = json::parse(GetParam().material);
+  EXPECT_THAT(file.load().warnings, ElementsAre(HasSubstr(GetParam().inWarning)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, GltfOddMaterial,
+    ::testing::Values(
+        OddMaterial{"IorBelowOne", R"({"extensions": {"KHR_materials_ior": {"ior": 0.9}}})", "1.5 stands for 0.9"},
+        OddMaterial{"IorOfZero", R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})", "1.5 stands for 0"},
+        OddMaterial{"IorAbsurd", R"({"extensions": {"KHR_materials_ior": {"ior": 40}}})", "of 40, 5 is used"},
+        OddMaterial{"AttenuationDistanceOfZero",
+                    R"({"extensions": {"KHR_materials_volume": {"attenuationDistance": 0}}})", "taken as none"},
+        OddMaterial{"BaseColorAboveOne", R"({"pbrMetallicRoughness": {"baseColorFactor": [1.5, 1, 1, 1]}})",
+                    "base colours are at most 1"},
+        OddMaterial{"TransmittingMetal", R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})",
+                    "metallic is not rendered on a transmitting surface"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(GltfMaterial, OddValues_AreReplaced) {
+  GltfFile file;
+  file.material() = json::parse(R"({"pbrMetallicRoughness": {"baseColorFactor": [1.5, 1, 0.5, 1]}, "extensions": {
+    "KHR_materials_ior": {"ior": 40}, "KHR_materials_volume": {"attenuationDistance": 0, "attenuationColor": [0, 1, 1]}}})");
+  const Material material = file.load().materials.at(0);
+  EXPECT_EQ(material.constants.kind.y, 5.0f);
+  EXPECT_EQ(material.constants.baseColor, glm::vec4(1, 1, 0.5f, 1));
+  EXPECT_EQ(material.constants.absorption, glm::vec4(0.0f));
 }
 
 TEST(GltfMaterial, ColorTexturesAreDecodedFromSrgb_DataTexturesAreNot) {
@@ -384,6 +484,61 @@ TEST(GltfExtras, Probe_IsMovedOrSwitchedOff) {
   EXPECT_THAT(probesWith({{"enabled", false}}), IsEmpty());
 }
 
+TEST(GltfExtras, Probe_IsGivenToWhatHasASpecularLobe) {
+  GltfFile file;
+  file.material()["pbrMetallicRoughness"]["roughnessFactor"] = 0.8;
+  const auto probeCount = [&] {
+    return makeSnapshot(std::make_shared<const Scene>(file.load()), 0, "", 1.0)->probes.size();
+  };
+  EXPECT_EQ(probeCount(), 0U);
+  file.json["nodes"][0]["extras"] = {{"probe", true}};
+  EXPECT_EQ(probeCount(), 1U);
+  EXPECT_THAT(describe(file.load()), HasSubstr("as the node's extras want"));
+  file.json["materials"][0] = json::parse(R"({"pbrMetallicRoughness": {"metallicFactor": 0},
+    "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})");
+  EXPECT_EQ(probeCount(), 0U);
+}
+
+TEST(GltfExtras, OfProbebench_SetWhatGltfCantSay) {
+  GltfFile file;
+  file.json["scenes"][0]["extras"]["probebench"] = json::parse(R"({"schema": 1, "shadows": "traced",
+    "environment": {"constant": [0.5, 1, 2]}, "framesPerSecond": 25, "probeNear": 0.2})");
+  Scene scene = file.load();
+  EXPECT_TRUE(scene.castsShadows);
+  EXPECT_EQ(scene.framesPerSecond, 25.0);
+  EXPECT_EQ(scene.probeNear, 0.2f);
+  EXPECT_EQ(environmentRadiance(scene.environment, {0, 1, 0}), glm::vec3(0.5f, 1, 2));
+  EXPECT_EQ(shading::ambientRadiance(scene.environment.ambient, {0, 0, 1}), glm::vec3(0.5f, 1, 2));
+  json& own = file.json["scenes"][0]["extras"]["probebench"];
+  own["environment"] = json::parse(R"({"sky": {"horizon": 1, "zenith": [0, 0, 1], "below": 0.25}, "ambient": [
+    [0.5, 0.5, 0.5], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]})");
+  own["shadows"] = "none";
+  scene = file.load();
+  EXPECT_FALSE(scene.castsShadows);
+  EXPECT_EQ(environmentRadiance(scene.environment, {0, 1, 0}), glm::vec3(0, 0, 1));
+  EXPECT_EQ(environmentRadiance(scene.environment, {0, -1, 0}), glm::vec3(0.25f));
+  EXPECT_EQ(shading::ambientRadiance(scene.environment.ambient, {0, 1, 0}), glm::vec3(0.5f));
+}
+
+TEST(GltfExtras, OfProbebench_LeaveToOthersWhatTheyDoNotSay) {
+  GltfFile file;
+  file.json["scenes"][0]["extras"] = {{"skyRadiance", 0.25}, {"probebench", {{"schema", 1}, {"shadows", "traced"}}}};
+  const Scene scene = file.load();
+  EXPECT_TRUE(scene.castsShadows);
+  EXPECT_EQ(environmentRadiance(scene.environment, {0, 1, 0}), glm::vec3(0.25f));
+}
+
+TEST(GltfExtras, UnknownMembersOfProbebench_AreIgnoredWithAWarning) {
+  GltfFile file;
+  file.material()["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  file.json["scenes"][0]["extras"]["probebench"] =
+      json::parse(R"({"schema": 1, "shadow": "traced", "environment": {"constant": 1, "nam": "x"}})");
+  EXPECT_THAT(
+      file.load().warnings,
+      ElementsAre("a member of extras.probebench is ignored: 'shadow' is not known; nearest is 'shadows'",
+                  "a member of extras.probebench/environment is ignored: 'nam' is not known; nearest is 'name'"));
+}
+
 TEST(GltfExtras, UnknownMembersOfAProbe_AreIgnoredWithAWarning) {
   GltfFile file;
   file.json["nodes"][0]["name"] = "ball";
@@ -421,11 +576,12 @@ TEST(GltfFiles, WithEmbeddedOrExternalData_AreTheSame) {
 
 TEST(GltfWarnings, NameTheFeatureAndTheMaterial) {
   GltfFile file;
-  file.material() =
-      json::parse(R"({"name": "varnish", "alphaMode": "BLEND", "pbrMetallicRoughness": {"metallicFactor": 0},
-    "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}})");
-  EXPECT_THAT(file.load().warnings, ElementsAre("material 'varnish': alpha mode BLEND is rendered opaque",
-                                                "material 'varnish': extension KHR_materials_clearcoat is ignored"));
+  file.material() = json::parse(R"({"name": "varnish", "pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {
+    "KHR_materials_clearcoat": {"clearcoatFactor": 1},
+    "KHR_materials_specular": {"specularTexture": {"index": 0}}}})");
+  file.addTexture(grayPng(0.5f));
+  EXPECT_THAT(file.load().warnings, ElementsAre("material 'varnish': extension KHR_materials_clearcoat is ignored",
+                                                "material 'varnish': specularTexture is ignored"));
 }
 
 // --- Mirrors by reference

@@ -184,7 +184,7 @@ TEST(SaveGlb, WritesExtrasThatMatchTheirSchema) {
     saveGlb(scene, folder.file("scene.glb"));
     nlohmann::json extras = jsonOf(readFile(folder.file("scene.glb")))["scenes"][0]["extras"]["probebench"];
     EXPECT_NO_THROW(parsePart(extras.dump(), "extras", schema));
-    extras["environment"].erase("ambient");
+    extras["environment"]["ambient"].erase(0);
     EXPECT_THROW(parsePart(extras.dump(), "extras", schema), Error);
   }
 }

@@ -133,6 +133,9 @@ setting("scene-out-of-range", "scene", 7)
 setting("scene-node-negative", "scenes/0/nodes/0", -1)
 setting("scenes-not-an-array", "scenes", {"nodes": [0]})
 setting("nodes-missing", "nodes", [])
+setting("extras-shadows-unknown", "scenes/0/extras", {"probebench": {"schema": 1, "shadows": "soft"}})
+setting("extras-environment-twice", "scenes/0/extras",
+        {"probebench": {"schema": 1, "environment": {"constant": 1, "faces": [0, 0, 0, 0, 0, 0]}}})
 setting("node-cycle", "nodes/0/children", [0])
 setting("node-child-out-of-range", "nodes/0/children", [99])
 setting("node-child-not-an-integer", "nodes/0/children", ["1"])
@@ -185,6 +188,16 @@ setting("texture-sampler-out-of-range", "textures/0/sampler", 1)
 setting("sampler-filter-unknown", "samplers/0/magFilter", 12345)
 setting("material-texture-out-of-range", "materials/0/pbrMetallicRoughness/baseColorTexture/index", -2)
 setting("material-color-of-two", "materials/0/pbrMetallicRoughness/baseColorFactor", [1, 1])
+setting("material-metallic-out-of-range", "materials/0/pbrMetallicRoughness/metallicFactor", -0.5)
+setting("material-alpha-mode-unknown", "materials/0/alphaMode", "GLASS")
+setting("material-alpha-cutoff-negative", "materials/0/alphaCutoff", -1)
+for extension, member, value in [
+        ("ior", "ior", -1.5), ("transmission", "transmissionFactor", 2), ("volume", "thicknessFactor", -1),
+        ("volume", "attenuationDistance", -1), ("volume", "attenuationColor", [1, 2, 1]),
+        ("dispersion", "dispersion", -0.1), ("specular", "specularFactor", 3)]:
+    setting("material-%s-out-of-range" % member, "materials/0/extensions", {"KHR_materials_" + extension: {member: value}})
+setting("material-conductor-without-k", "materials/0/extras", {"probebench": {"eta": [1, 1, 1]}})
+setting("material-conductor-zero", "materials/0/extras", {"probebench": {"eta": [0, 0, 0], "k": [0, 0, 0]}})
 setting("material-roughness-out-of-range", "materials/0/pbrMetallicRoughness/roughnessFactor", 20)
 setting("material-transform-not-numbers", "materials/0/pbrMetallicRoughness/baseColorTexture/extensions",
         {"KHR_texture_transform": {"scale": ["a", "b"]}})
@@ -279,7 +292,7 @@ def _(scene):
 def _(scene):
     scene.json["nodes"] += [{"children": [4 + i]} for i in range(3000)] + [{"mesh": 0}]
     scene.json["scenes"][0]["nodes"].append(3)
-    scene.json["materials"][0]["alphaMode"] = "BLEND"
+    scene.json["extensionsUsed"].append("EXT_unheard_of")
 
 
 @change("warn-orthographic-camera")
@@ -296,7 +309,14 @@ def _(scene):
 setting("warn-morph-targets", "meshes/0/primitives/0/targets", [{"POSITION": 0}])
 setting("warn-skin", "skins", [{"joints": [0]}])
 setting("warn-extension-used", "extensionsUsed", ["EXT_unheard_of"])
-setting("warn-alpha-mask", "materials/0/alphaMode", "MASK")
+setting("warn-extras-member-unknown", "scenes/0/extras", {"probebench": {"schema": 1, "shadow": "none"}})
+setting("warn-material-ior-below-one", "materials/0/extensions", {"KHR_materials_ior": {"ior": 0.5}})
+setting("warn-material-ior-absurd", "materials/0/extensions", {"KHR_materials_ior": {"ior": 1e30}})
+setting("warn-material-attenuation-distance-zero", "materials/0/extensions",
+        {"KHR_materials_volume": {"attenuationDistance": 0}})
+setting("warn-material-color-above-one", "materials/0/pbrMetallicRoughness/baseColorFactor", [2, 1, 1, 1])
+setting("warn-material-glass-not-closed", "materials/0/extensions",
+        {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1}})
 
 
 def bare_files():
