@@ -7,7 +7,14 @@
 namespace pb {
 
 Scene makeControlScene(SpecReader& parameters);
+Scene makeControlAlphaScene(SpecReader& parameters);
+Scene makeControlShadowsScene(SpecReader& parameters);
+Scene makeCrtHeapScene(SpecReader& parameters);
+Scene makeDispersionScene(SpecReader& parameters);
+Scene makeGlassScene(SpecReader& parameters);
+Scene makeMetalsScene(SpecReader& parameters);
 Scene makeMirrorRoomScene(SpecReader& parameters);
+Scene makeMirrorsRingScene(SpecReader& parameters);
 Scene makeMirrorsScene(SpecReader& parameters);
 Scene makeTeapotScene(SpecReader& parameters);
 
@@ -16,10 +23,24 @@ const std::vector<BuiltinScene>& builtinScenes() {
       {"control", "textures = 1 or 0 for plain colours and no normal maps, default 1",
        "No specular surface at all: many shapes, textures, normal maps and transforms under three lights.",
        makeControlScene},
+      {"control-alpha", "", "Matte cutouts, and transparent matte surfaces that cut through each other.",
+       makeControlAlphaScene},
+      {"control-shadows", "textures = 1 or 0 for plain colours and no normal maps, default 1",
+       "The control with shadows of a directional, a point and a spot light.", makeControlShadowsScene},
+      {"crt-heap", "count = monitors, 1 to 12, default 10",
+       "A heap of monitors with mirrors on their sides that show moving pictures.", makeCrtHeapScene},
+      {"dispersion", "", "Prisms, an absorbing column and a faceted gem before bright slits.", makeDispersionScene},
+      {"glass", "", "Glass, rough metal and mirror balls under a lamp: scene B of the CPU ray tracers' benchmark.",
+       makeGlassScene},
+      {"metals", "grid = spheres a row, 2 to 8, default 5",
+       "Silver, gold and copper spheres from perfectly smooth to very rough.", makeMetalsScene},
       {"mirror-room", "count = mirror balls, 1 to 16, default 5",
        "Small mirror balls in a closed room: little parallax, many bounces.", makeMirrorRoomScene},
       {"mirrors", "count = mirror balls on the ring, 1 to 64, default 5",
        "A ring of mirror balls that reflect each other on a checkered ground.", makeMirrorsScene},
+      {"mirrors-ring", "point = 1 to add a point light, default 0",
+       "Eight mirror balls on a ring under a constant sky: scene A of the CPU ray tracers' benchmark.",
+       makeMirrorsRingScene},
       {"teapot", "", "A mirror teapot with a matte one on an orbit around it.", makeTeapotScene},
   };
   return table;

@@ -1,6 +1,6 @@
 // `control`: no specular surface at all. Nothing is approximated here, so both renderers must agree; it holds
 // everything that could make them differ: shapes, textures with every filter, normal maps, vertex colours, transforms
-// and kinds of light.
+// and kinds of light. `control-shadows` is the same scene with shadows of its three punctual lights.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -170,6 +170,14 @@ Scene makeControlScene(SpecReader& parameters) {
   scene.environment = makeProceduralSky();
   if (!textures)
     for (Material& material : scene.materials) removeTextures(material);
+  return scene;
+}
+
+Scene makeControlShadowsScene(SpecReader& parameters) {
+  Scene scene = makeControlScene(parameters);
+  scene.castsShadows = true;
+  // Shadow maps belong to punctual lights: the lamp is only another box here.
+  for (Material& material : scene.materials) material.constants.emission = {0.0f, 0.0f, 0.0f, 1.0f};
   return scene;
 }
 
