@@ -17,7 +17,8 @@ std::vector<std::pair<std::string, std::string>> settingsOf(const Suite& suite) 
   return {{"image", fmt::format("{}x{}", image.widthPx, image.heightPx)},
           {"samples", fmt::format("{} a pixel", image.samplesPerAxis * image.samplesPerAxis)},
           {"reference depth", reference.depth ? std::to_string(*reference.depth) : "converged"},
-          {"reference diffuse", "local"},
+          {"reference diffuse", printDiffuse(reference.diffuse)},
+          {"reference diffuse_depth", reference.diffuseDepth ? std::to_string(*reference.diffuseDepth) : "unlimited"},
           {"reference spp", fmt::format("{} a primary sample", reference.spp)},
           {"reference max_noise", reference.maxNoise ? fmt::format("{:g}", *reference.maxNoise) : "none"},
           {"cost repetitions", std::to_string(suite.cost.repetitions)}};

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/hash.h"
+#include "bench/suite.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
 #include "scenes/image_io.h"
@@ -76,10 +77,12 @@ fs::path defaultStoreFolder() {
 std::string ReferenceStore::describe(const ReferenceRequest& request) {
   const ReferenceSettings& settings = request.settings;
   return fmt::format(
-      "snapshot {:016x} size {}x{} samples {} spp {} depth {} seed {} hidden [{}] integrator {} embree {}",
+      "snapshot {:016x} size {}x{} samples {} spp {} depth {} diffuse {} {} seed {} hidden [{}] integrator {} embree "
+      "{}",
       contentHash(*request.snapshot), request.widthPx, request.heightPx,
       settings.samplesPerAxis * settings.samplesPerAxis, settings.spp,
-      settings.depth ? std::to_string(*settings.depth) : "converged", settings.seed,
+      settings.depth ? std::to_string(*settings.depth) : "converged", printDiffuse(settings.diffuse),
+      settings.diffuseDepth ? std::to_string(*settings.diffuseDepth) : "unlimited", settings.seed,
       fmt::join(settings.hiddenInstances, ","), kIntegratorVersion, embreeVersion());
 }
 

@@ -48,17 +48,15 @@ ImageSettings readImage(TomlReader& suite) {
   return image;
 }
 
-void readDiffuse(TomlReader& reference) {
-  const std::string diffuse = reference.text("diffuse").value_or("local");
-  if (diffuse == "traced")
-    throwInputError("{}: diffuse = 'traced' is not available yet, only 'local' is",
-                    placeOf(reference.file(), reference.require("diffuse")));
-  if (diffuse != "local")
-    throwInputError("{}: 'diffuse' wants local, got {}", placeOf(reference.file(), reference.require("diffuse")),
-                    diffuse);
-  if (const toml::node* depth = reference.find("diffuse_depth"))
-    throwInputError("{}: 'diffuse_depth' belongs to diffuse = 'traced', which is not available yet",
-                    placeOf(reference.file(), *depth));
+void readDiffuse(TomlReader& reference, TruthSettings& truth) {
+  if (const toml::node* node = reference.find("diffuse"))
+    truth.diffuse =
+        atPlace(reference.file(), *node, [&] { return parseDiffuse(scalarText(*node, "diffuse", reference.file())); });
+  const auto depth = reference.integer("diffuse_depth", 0, kMaxDepth);
+  if (depth && truth.diffuse == DiffuseTransport::local)
+    throwInputError("{}: 'diffuse_depth' belongs to diffuse = \"traced\"",
+                    placeOf(reference.file(), reference.require("diffuse_depth")));
+  if (depth) truth.diffuseDepth = static_cast<int>(*depth);
 }
 
 TruthSettings readReference(TomlReader& suite) {
@@ -67,7 +65,7 @@ TruthSettings readReference(TomlReader& suite) {
   if (!reader) return truth;
   if (const toml::node* depth = reader->find("depth"))
     truth.depth = atPlace(suite.file(), *depth, [&] { return parseDepth(scalarText(*depth, "depth", suite.file())); });
-  readDiffuse(*reader);
+  readDiffuse(*reader, truth);
   if (const auto spp = reader->integer("spp", 2, kMaxSpp)) {
     if (*spp % 2 != 0)
       throwInputError("{}: 'spp' wants an even number, one half for each of two images, got {}",
@@ -165,14 +163,23 @@ bool isEnvironmentFile(const std::string& environment) {
 
 std::string inFolder(const std::string& path, const std::string& folder) { return (fs::path(folder) / path).string(); }
 
-// The scene as loadScene() wants it: paths relative to the suite's folder, the suite's environment as an option.
-std::string sceneReference(const std::string& use, const std::optional<std::string>& environment,
-                           const std::string& folder) {
+// Options of loadScene() that a suite may give beside `use`.
+using SceneOptions = std::vector<std::pair<std::string, std::string>>;
+
+SceneOptions readSceneOptions(TomlReader& reader) {
+  SceneOptions options;
+  for (const char* option : {"environment", "shadows"})
+    if (const std::optional<std::string> value = reader.text(option)) options.emplace_back(option, *value);
+  return options;
+}
+
+// The scene as loadScene() wants it: paths relative to the suite's folder, the suite's options joined to its own.
+std::string sceneReference(const std::string& use, const SceneOptions& options, const std::string& folder) {
   Spec spec = parseSpec(use);
-  if (environment) {
-    if (std::ranges::any_of(spec.parameters, [](const auto& p) { return p.first == "environment"; }))
-      throwInputError("'environment' stands both in '{}' and beside it", use);
-    spec.parameters.emplace_back("environment", *environment);
+  for (const auto& [option, value] : options) {
+    if (std::ranges::find(spec.parameters, option, &SceneOptions::value_type::first) != spec.parameters.end())
+      throwInputError("'{}' stands both in '{}' and beside it", option, use);
+    spec.parameters.emplace_back(option, value);
   }
   if (isPath(spec.name)) spec.name = inFolder(spec.name, folder);
   for (auto& [key, value] : spec.parameters)
@@ -185,10 +192,10 @@ SuiteScene readScene(const toml::table& table, const std::string& file, const st
   SuiteScene scene;
   const toml::node& use = reader.require("use");
   scene.name = reader.text("use").value();
-  const std::optional<std::string> environment = reader.text("environment");
-  scene.reference = atPlace(file, use, [&] { return sceneReference(scene.name, environment, folder); });
-  if (environment)
-    scene.name += (scene.name.find('?') == std::string::npos ? "?environment=" : "&environment=") + *environment;
+  const SceneOptions options = readSceneOptions(reader);
+  scene.reference = atPlace(file, use, [&] { return sceneReference(scene.name, options, folder); });
+  for (const auto& [option, value] : options)
+    scene.name += fmt::format("{}{}={}", scene.name.find('?') == std::string::npos ? '?' : '&', option, value);
   if (const toml::node* frames = reader.find("frames")) scene.frames = readFrames(*frames, file);
   if (const auto warmup = reader.integer("warmup", 0, 1000)) scene.warmup = static_cast<int>(*warmup);
   scene.camera = reader.text("camera").value_or("");
@@ -338,8 +345,9 @@ SuiteScene sceneLike(const SuiteScene& like, const std::string& reference) {
 }
 
 std::string canonicalText(const Suite& suite) {
-  std::string text = fmt::format("image {}x{} {}\nreference {} {} {}\ncost {}\n", suite.image.widthPx,
+  std::string text = fmt::format("image {}x{} {}\nreference {} {} {} {} {}\ncost {}\n", suite.image.widthPx,
                                  suite.image.heightPx, suite.image.samplesPerAxis, suite.reference.depth.value_or(0),
+                                 printDiffuse(suite.reference.diffuse), suite.reference.diffuseDepth.value_or(-1),
                                  suite.reference.spp, suite.reference.maxNoise.value_or(-1), suite.cost.repetitions);
   for (const auto& [axis, value] : describe(suite.technique)) text += fmt::format("{} = {}\n", axis, value);
   for (const SuiteScene& scene : suite.scenes)
@@ -374,5 +382,13 @@ std::optional<int> parseDepth(std::string_view text) {
     throwInputError("depth wants 'converged' or an integer from 1 to {}, got '{}'", kMaxDepth, text);
   return static_cast<int>(*depth);
 }
+
+DiffuseTransport parseDiffuse(std::string_view text) {
+  if (text == "local") return DiffuseTransport::local;
+  if (text == "traced") return DiffuseTransport::traced;
+  throwInputError("diffuse wants 'local' or 'traced', got '{}'", text);
+}
+
+std::string printDiffuse(DiffuseTransport diffuse) { return diffuse == DiffuseTransport::traced ? "traced" : "local"; }
 
 }  // namespace pb

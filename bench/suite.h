@@ -9,6 +9,7 @@
 
 #include "bench/tolerance.h"
 #include "raster/technique.h"
+#include "reference/renderer.h"
 
 namespace pb {
 
@@ -37,9 +38,11 @@ struct ImageSettings {
 inline constexpr int kMaxSpp = 1024;
 
 struct TruthSettings {
-  std::optional<int> depth;        // specular bounces; none: converged
-  int spp = 16;                    // samples per primary point to begin with
-  std::optional<double> maxNoise;  // relMSE of the noise floor; spp is doubled until it is met
+  std::optional<int> depth;  // specular bounces; none: converged
+  DiffuseTransport diffuse = DiffuseTransport::local;
+  std::optional<int> diffuseDepth{};  // diffuse bounces of traced light; none: unlimited
+  int spp = 16;                     // samples per primary point to begin with
+  std::optional<double> maxNoise;   // relMSE of the noise floor; spp is doubled until it is met
 };
 
 struct CostSettings {
@@ -82,5 +85,9 @@ std::string canonicalText(const Suite& suite);
 std::pair<int, int> parseSize(std::string_view text);
 int samplesPerAxisOf(long long samples);
 std::optional<int> parseDepth(std::string_view text);
+
+// "local" or "traced"; throws an input Error otherwise.
+DiffuseTransport parseDiffuse(std::string_view text);
+std::string printDiffuse(DiffuseTransport diffuse);
 
 }  // namespace pb

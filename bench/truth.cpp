@@ -60,6 +60,8 @@ ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapsho
   ReferenceRequest request{snapshot, image_.widthPx, image_.heightPx, {}};
   request.settings.samplesPerAxis = image_.samplesPerAxis;
   request.settings.depth = settings_.depth;
+  request.settings.diffuse = settings_.diffuse;
+  request.settings.diffuseDepth = settings_.diffuseDepth;
   request.settings.spp = settings_.spp;
   ReferenceImage image = obtain(request, scene, warnings);
   while (settings_.maxNoise && noiseOf(image) > *settings_.maxNoise && request.settings.spp < mostSpp(settings_)) {

@@ -82,7 +82,7 @@ void checkFileIsMeant(const std::string& path, const std::string& reference) {
 Scene loadFile(Spec spec, const std::string& reference, const std::optional<Environment>& environment) {
   checkFileIsMeant(spec.name, reference);
   const std::optional<std::string> mirror = takeParameter(spec, "mirror");
-  const std::vector<std::string> known = {"mirror", "environment"};
+  const std::vector<std::string> known = {"mirror", "environment", "shadows"};
   if (!spec.parameters.empty())
     throwInputError("scene '{}': parameter {}", reference, unknownMessage(spec.parameters.front().first, known));
   Scene scene = loadGltf(spec.name, environment);
@@ -102,12 +102,16 @@ Scene makeBuiltin(Spec spec, const std::optional<Environment>& environment) {
 
 std::shared_ptr<const Scene> loadScene(const std::string& reference) {
   Spec spec = parseSpec(reference);
+  const std::optional<std::string> shadows = takeParameter(spec, "shadows");
+  if (shadows && *shadows != "none" && *shadows != "traced")
+    throwInputError("scene '{}': shadows wants none or traced, got '{}'", reference, *shadows);
   std::vector<std::string> warnings;
   std::optional<Environment> environment;
   if (const std::optional<std::string> text = takeParameter(spec, "environment"))
     environment = loadEnvironment(*text, warnings);
   Scene scene = spec.name.starts_with(kBuiltinPrefix) ? makeBuiltin(std::move(spec), environment)
                                                       : loadFile(std::move(spec), reference, environment);
+  if (shadows) scene.castsShadows = *shadows == "traced";
   scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
   return std::make_shared<const Scene>(std::move(scene));
 }

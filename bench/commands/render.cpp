@@ -21,9 +21,10 @@ namespace {
 
 struct RenderOptions {
   std::string scene, renderer, output, camera;
-  std::string size = "640x360", depth = "converged";
+  std::string size = "640x360", depth = "converged", diffuse = "local";
   int samples = 4, frame = 0, spp = 16;
   double exposure = 0;
+  std::optional<int> diffuseDepth;
   std::vector<std::string> settings, aovs;
 };
 
@@ -74,6 +75,10 @@ RenderJob parseJob(const RenderOptions& options) {
   job.technique = parseTechnique(options.settings);
   job.reference.samplesPerAxis = job.image.samplesPerAxis;
   job.reference.depth = parseDepth(options.depth);
+  job.reference.diffuse = parseDiffuse(options.diffuse);
+  job.reference.diffuseDepth = options.diffuseDepth;
+  if (options.diffuseDepth && job.reference.diffuse == DiffuseTransport::local)
+    throwInputError("--diffuse-depth belongs to --diffuse traced");
   job.reference.spp = options.spp;
   job.idsPath = parseAovs(options.aovs);
   job.scene = loadScene(options.scene);
@@ -158,6 +163,11 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& actio
   command->add_option("--set", options->settings, "AXIS=VALUE of the raster; see `probebench axes list`")
       ->allow_extra_args(false);
   command->add_option("--depth", options->depth, "specular bounces of the reference")->capture_default_str();
+  command->add_option("--diffuse", options->diffuse, "light on diffuse surfaces of the reference: local or traced")
+      ->capture_default_str();
+  command
+      ->add_option("--diffuse-depth", options->diffuseDepth, "diffuse bounces of --diffuse traced; unlimited if absent")
+      ->check(CLI::Range(0, 1'000));
   command->add_option("--spp", options->spp, "samples per primary sample of the reference, even")
       ->check(CLI::Validator(
           [](std::string& text) {

@@ -100,6 +100,24 @@ PB_FUNC vec4 packTaps(CubeTaps t) {
               float(t.p01.x + 16 * t.p01.y + 256 * t.p01.z), float(t.p11.x + 16 * t.p11.y + 256 * t.p11.z));
 }
 
+PB_FUNC vec3 upperVector(vec4 v) {
+  vec3 d = unitVector(v);
+  return vec3(d.x, d.y, max(abs(d.z), 0.05f));
+}
+
+PB_FUNC AreaLight makeAreaLight(vec4 a, vec4 b) {
+  AreaLight light;
+  light.a = vec4(4.0f * vec3(a) - vec3(2.0f), b.w < 0.5f ? 1.0f : 0.0f);
+  light.b = vec4(4.0f * vec3(b) - vec3(2.0f), 0.0f);
+  light.c = vec4(2.0f, -1.5f, 1.0f, 0.0f);
+  light.radiance = vec4(1.0f + a.w, 2.0f, 3.0f, 0.0f);
+  return light;
+}
+
+const vec4 kExactLaw = vec4(kFresnelExact, 0.0f, 0.0f, 0.0f);
+const vec4 kSchlickLaw = vec4(kFresnelSchlick, 0.0f, 0.0f, 0.0f);
+const vec4 kRatioLaw = vec4(kFresnelRatio, 0.1f, 0.8f, 3.0f);
+
 AGREEMENT_CASES_BEGIN
 AGREEMENT_CASE(0, vec4(safeNormalize(vec3(a)), pow5(a.w)))
 AGREEMENT_CASE(1, vec4(srgbEncode(a.x), srgbEncode(0.01f * a.y), srgbDecode(a.z), srgbDecode(0.1f * a.w)))
@@ -138,4 +156,22 @@ AGREEMENT_CASE(33, vec4(coneLod(0.01f + a.x, b.x - 0.5f, 1.0f + 10.0f * a.y, ive
 AGREEMENT_CASE(34, vec4(vec3(makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).baseColor), makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).metallic))
 AGREEMENT_CASE(35, vec4(makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).emission, makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).occlusion))
 AGREEMENT_CASE(36, vec4(environmentRadiance(makeSky(a, 0.0f), faces, unitVector(b)), 0.0f))
+AGREEMENT_CASE(37, vec4(F_Conductor(a.x, vec3(a) + vec3(0.1f), 4.0f * vec3(b)), F_Ratio(b.x, 0.2f * a.y, b.y, 1.0f + 5.0f * b.z)))
+AGREEMENT_CASE(38, vec4(dielectricReflectance(kSchlickLaw, a.x, 1.1f + b.x), dielectricReflectance(kRatioLaw, a.y, 1.5f), dielectricReflectance(kExactLaw, a.z, 1.1f + b.z), dielectricF0(1.0f + b.w)))
+AGREEMENT_CASE(39, vec4(dielectricReflectance(kSchlickLaw, a.x, 0.5f + 0.4f * b.x)))
+AGREEMENT_CASE(40, vec4(toWorld(makeFrame(unitVector(a)), vec3(b)), toLocal(makeFrame(unitVector(b)), vec3(a)).x))
+AGREEMENT_CASE(41, vec4(D_GGX(a.x, 0.05f + b.x), lambda_GGX(0.05f + a.y, 0.05f + b.y), G1_SmithGGX(0.05f + a.z, 0.05f + b.z), V_SmithGGXCorrelated(0.05f + a.x, 0.05f + a.y, 0.05f + b.w)))
+AGREEMENT_CASE(42, vec4(geometryTerm(kGeometryOne, a.x, a.y, a.z, a.w, 0.1f + b.x), geometryTerm(kGeometrySmithK, a.x, a.y, a.z, a.w, 0.1f + b.x), geometryTerm(kGeometryCookTorrance, a.x, a.y, a.z, 0.1f + a.w, 0.1f + b.x), geometryTerm(kGeometrySmithCorrelated, a.x, a.y, a.z, a.w, 0.1f + b.x)))
+AGREEMENT_CASE(43, vec4(sampleVisibleNormal(safeNormalize(upperVector(a)), 0.05f + 0.9f * a.w, vec2(b.x, b.y)), 0.0f))
+AGREEMENT_CASE(44, vec4(pdfVisibleNormal(0.05f + 0.9f * a.x, 0.9f * a.y, a.z, 0.1f + b.x)))
+AGREEMENT_CASE(45, vec4(sampleDfg(image, a.x, a.y), sampleDfg(image, 0.0f, b.x)))
+AGREEMENT_CASE(46, vec4(areaLightIrradiance(makeAreaLight(a, b), vec3(0.1f, 0.2f, 0.3f), unitVector(vec4(b.w, a.w, b.x, 0.0f))), 0.0f))
+AGREEMENT_CASE(47, vec4(transmittance(3.0f * vec3(a), b.x), channelIor(1.0f + b.y, b.z, int(3.0f * b.w))))
+AGREEMENT_CASE(48, vec4(slabExitOffset(unitVector(a), -unitVector(a + 0.2f * b), 1.1f + b.w, a.w), 0.0f))
+AGREEMENT_CASE(49, vec4(specularReflectance(makeTestSurface(kSurfaceGlossy, a, b), b.x, kExactLaw), specularReflectance(makeTestSurface(kSurfaceGlossy, a, b), b.x, kRatioLaw).x))
+AGREEMENT_CASE(50, vec4(specularF0(makeTestSurface(kSurfaceGlossy, a, b)), specularF90(makeTestSurface(kSurfaceGlossy, a, b))))
+AGREEMENT_CASE(51, vec4(coatAlbedo(makeTestSurface(kSurfaceGlossy, a, b), surfaceDfg(makeTestSurface(kSurfaceGlossy, a, b), image, a.z)), 0.0f))
+AGREEMENT_CASE(52, vec4(specularBrdf(makeTestSurface(kSurfaceGlossy, a, vec4(0.5f, 0.5f, 1.0f, b.w)), safeNormalize(upperVector(a)), safeNormalize(upperVector(b)), kExactLaw, kGeometrySmithCorrelated), 0.0f))
+AGREEMENT_CASE(53, vec4(specularWeights(makeTestSurface(kSurfaceGlossy, a, b), b.w, 1.5f, kSchlickLaw).reflection, float(isThinWalled(makeTestSurface(kSurfaceGlass, a, b)))))
+AGREEMENT_CASE(54, vec4(makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).alpha, makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).opacity, ggxAlpha(0.04f * a.x), ggxAlpha(a.y)))
 AGREEMENT_CASES_END

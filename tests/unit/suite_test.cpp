@@ -31,7 +31,7 @@ TEST(Suite, WithEveryKey_IsReadWhole) {
 schema = 1
 name = "all"
 image = { size = [320, 200], samples = 9 }
-reference = { depth = 3, diffuse = "local", spp = 8, max_noise = 1e-5 }
+reference = { depth = 3, diffuse = "traced", diffuse_depth = 2, spp = 8, max_noise = 1e-5 }
 cost = { repetitions = 5 }
 technique = { feedback = "sky", bounces = 2 }
 
@@ -133,9 +133,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "suites/s.toml:3: 'image' may have at most 16384 samples along a side, got 24000"},
         BadSuite{"reference = { depth = 0 }\n",
                  "suites/s.toml:3: depth wants 'converged' or an integer from 1 to 64, got '0'"},
-        BadSuite{"reference = { diffuse = \"traced\" }\n",
-                 "suites/s.toml:3: diffuse = 'traced' is not available yet, only 'local' is"},
-        BadSuite{"reference = { diffuse = \"traecd\" }\n", "suites/s.toml:3: 'diffuse' wants local, got traecd"},
+        BadSuite{"reference = { diffuse = \"traecd\" }\n",
+                 "suites/s.toml:3: diffuse wants 'local' or 'traced', got 'traecd'"},
+        BadSuite{"reference = { diffuse_depth = 2 }\n",
+                 "suites/s.toml:3: 'diffuse_depth' belongs to diffuse = \"traced\""},
         BadSuite{"reference = { spp = 3 }\n",
                  "suites/s.toml:3: 'spp' wants an even number, one half for each of two images, got 3"},
         BadSuite{"reference = { max_noise = nan }\n",
