@@ -100,6 +100,17 @@ void requireSameDriver(const Provenance& run, const std::string& baselinePath) {
                     old.glRenderer, old.glVersion, run.glRenderer, run.glVersion);
 }
 
+void requireQuietReferences(const Results& run) {
+  const std::optional<double>& limit = run.provenance.maxNoise;
+  const std::vector<NoisyReference> noisy = findNoisyReferences(run.cells, limit);
+  if (noisy.empty()) return;
+  const NoisyReference& first = noisy.front();
+  throw Error(Failure::inconclusive,
+              fmt::format("max_noise is {:g}, but {} references have more, the first is that of '{}' frame {} with "
+                          "{:.3g}: --force blesses the run all the same",
+                          *limit, noisy.size(), first.scene, first.frame, first.noise));
+}
+
 void requireBlessable(const Results& run, const std::string& reason) {
   if (reason.find_first_not_of(" \t\r\n") == std::string::npos)
     throwInputError("a blessing needs a reason, got '{}'", reason);
@@ -160,6 +171,7 @@ Baseline readBaseline(const std::string& path) { return baselineFromJson(readFil
 
 void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force) {
   requireBlessable(run, reason);
+  if (!force) requireQuietReferences(run);
   if (!force && std::filesystem::exists(baselinePath)) requireSameDriver(run.provenance, baselinePath);
   writeFileAtomically(baselinePath, toJson(makeBaseline(run, reason, utcNow())));
 }

@@ -47,9 +47,9 @@ Baseline readBaseline(const std::string& path);
 // Whether counters and costs of the two are comparable at all: same GL renderer and version.
 bool sameDriver(const Provenance& a, const Provenance& b);
 
-// Writes the baseline of a run. Throws an input Error for an empty reason, a run without cells or tolerances, one
-// whose control did not pass, and (unless `force`) another GL renderer or driver than that of the baseline that is
-// there.
+// Writes the baseline of a run. Throws an input Error for an empty reason, a run without cells or tolerances, and one
+// whose control did not pass; unless `force`, also an inconclusive Error for references that missed max_noise and an
+// input Error for another GL renderer or driver than that of the baseline that is there.
 void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force);
 
 }  // namespace pb

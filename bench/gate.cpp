@@ -47,6 +47,7 @@ class Comparison {
     compareCells();
     findSurplus();
     compareCosts();
+    findNoise();
     noteDifferences();
     conclude();
     return std::move(report_);
@@ -181,9 +182,30 @@ class Comparison {
     return std::max(relative * before, absolute);
   }
 
+  // The stricter of both sides: like a loosened tolerance, a loosened max_noise does not pass unnoticed.
+  std::optional<double> maxNoise() const {
+    const std::optional<double>&now = run_.provenance.maxNoise, &old = baseline_.provenance.maxNoise;
+    return now && old ? std::min(*now, *old) : now ? now : old;
+  }
+
+  void findNoise() {
+    const std::optional<double> limit = maxNoise();
+    for (const CellResult& cell : run_.cells)
+      if (isTooNoisy(cell, limit)) report_.noisyCells.insert(cell.key());
+    std::map<std::string, std::vector<double>> noiseOfScenes;
+    for (const NoisyReference& noisy : findNoisyReferences(run_.cells, limit))
+      noiseOfScenes[noisy.scene].push_back(noisy.noise);
+    const char* owner = limit == run_.provenance.maxNoise ? "" : " in the baseline";
+    for (const auto& [scene, noise] : noiseOfScenes)
+      report_.notes.push_back(fmt::format(
+          "Noise: max_noise is {:g}{}, but references of scene '{}' have up to {:.3g}, in {} of its frames.", *limit,
+          owner, scene, *std::ranges::max_element(noise), noise.size()));
+  }
+
   void noteDifferences() {
     const Provenance &now = run_.provenance, &old = baseline_.provenance;
-    if (!sameDriver(now, old))
+    report_.sameDriver = sameDriver(now, old);
+    if (!report_.sameDriver)
       report_.notes.push_back(
           fmt::format("Drift: counters were not compared, the baseline was made with '{}' ({}), "
                       "this run with '{}' ({}).",
@@ -194,12 +216,15 @@ class Comparison {
         report_.notes.push_back(fmt::format("The content of scene '{}' has changed since the baseline.", scene));
   }
 
-  // A metric out of its tolerance fails on any driver; on another driver the exact half of the gate is missing.
+  // A metric out of its tolerance fails against any reference and on any driver. Against a noisy reference agreement
+  // proves nothing; on another driver the exact half of the gate is missing.
   void conclude() {
     std::ranges::stable_sort(report_.findings, std::ranges::greater{}, &Finding::excess);
     if (!report_.findings.empty())
       report_.verdict = Verdict::fail;
-    else if (!sameDriver(run_.provenance, baseline_.provenance))
+    else if (!report_.noisyCells.empty())
+      report_.verdict = Verdict::inconclusive;
+    else if (!report_.sameDriver)
       report_.verdict = Verdict::drift;
   }
 
@@ -219,6 +244,7 @@ int exitCode(Verdict verdict) {
       return 0;
     case Verdict::fail:
       return static_cast<int>(Failure::verdict);
+    case Verdict::inconclusive:
     case Verdict::drift:
       return static_cast<int>(Failure::inconclusive);
   }

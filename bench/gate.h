@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,13 +29,17 @@ struct Finding {
   double excess = 0;                    // |after - before| / limit: what changed most has the largest
 };
 
-enum class Verdict { pass, fail, drift };  // exit codes 0, 1, 4
+// Exit codes 0, 1, 4, 4. inconclusive: nothing differs, but some references are too noisy to say so; drift: nothing
+// differs, but another driver made the baseline, so that counters were not compared.
+enum class Verdict { pass, fail, inconclusive, drift };
 
 struct GateReport {
   Verdict verdict = Verdict::pass;
-  std::vector<Finding> findings;   // the largest excess first
-  std::vector<std::string> notes;  // one sentence each: what was not compared and why, what else differs
-  std::vector<std::string> cells;  // every cell of either side
+  std::vector<Finding> findings;     // the largest excess first
+  std::vector<std::string> notes;    // one sentence each: what was not compared and why, what else differs
+  std::vector<std::string> cells;    // every cell of either side
+  std::set<std::string> noisyCells;  // those of the run whose reference missed max_noise
+  bool sameDriver = true;
   std::size_t metricsCompared = 0, countersCompared = 0, costsCompared = 0;
 };
 

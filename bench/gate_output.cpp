@@ -18,12 +18,16 @@ constexpr std::size_t kMaxShownFindings = 12;
 constexpr char kControlCase[] = "control";
 constexpr char kCostCase[] = "cost";
 
+constexpr char kNoisy[] = "within tolerance, but the reference is noisier than max_noise";
+
 const char* nameOf(Verdict verdict) {
   switch (verdict) {
     case Verdict::pass:
       return "pass";
     case Verdict::fail:
       return "fail";
+    case Verdict::inconclusive:
+      return "inconclusive";
     case Verdict::drift:
       return "drift";
   }
@@ -135,15 +139,15 @@ std::string testCase(const std::string& name, const std::string& outcome) {
 }
 
 std::string failureOf(const std::vector<std::string>& sentences) {
-  if (sentences.empty()) return "";
   return fmt::format("<failure message=\"{}\">{}</failure>", xmlEscaped(sentences[0]),
                      xmlEscaped(fmt::format("{}", fmt::join(sentences, "; "))));
 }
 
+std::string skipped(const std::string& why) { return fmt::format("<skipped message=\"{}\"/>", xmlEscaped(why)); }
+
 // Drift is neither a pass nor a failure: what would have compared the counters did not run.
-std::string skippedOf(const GateReport& report) {
-  if (report.verdict != Verdict::drift) return "";
-  return fmt::format("<skipped message=\"{}\"/>", xmlEscaped(fmt::format("{}", fmt::join(report.notes, " "))));
+std::string driverOutcome(const GateReport& report) {
+  return report.sameDriver ? "" : skipped(fmt::format("{}", fmt::join(report.notes, " ")));
 }
 
 }  // namespace
@@ -155,7 +159,9 @@ std::string printGateReport(const GateReport& report, const std::string& blessCo
   if (!report.findings.empty()) text += '\n' + findingsTable(report);
   if (!report.notes.empty()) text += '\n';
   for (const std::string& note : report.notes) text += fmt::format("* {}\n", note);
-  if (report.verdict != Verdict::pass) text += fmt::format("\nIf this is as it should be: {}\n", blessCommand);
+  // Noise is never as it should be: `bless` refuses it.
+  if (report.verdict == Verdict::fail || report.verdict == Verdict::drift)
+    text += fmt::format("\nIf this is as it should be: {}\n", blessCommand);
   return text;
 }
 
@@ -167,6 +173,7 @@ std::string toJson(const GateReport& report) {
   head["metrics_compared"] = report.metricsCompared;
   head["counters_compared"] = report.countersCompared;
   head["costs_compared"] = report.costsCompared;
+  head["noisy_cells"] = report.noisyCells;
   head["notes"] = report.notes;
   std::vector<Json> rows;
   for (const Finding& finding : report.findings) rows.push_back(findingToJson(finding));
@@ -179,14 +186,18 @@ std::string toJUnit(const GateReport& report, const std::string& suiteName) {
 
   std::vector<std::string> names = {kControlCase, kCostCase};
   names.insert(names.end(), report.cells.begin(), report.cells.end());
-  std::string cases = testCase("same GL driver as the baseline", skippedOf(report));
-  for (const std::string& name : names) cases += testCase(name, failureOf(failures[name]));
+  std::string cases = testCase("same GL driver as the baseline", driverOutcome(report));
+  std::size_t failed = 0, skippedCases = report.sameDriver ? 0 : 1;
+  for (const std::string& name : names) {
+    const bool fails = failures.contains(name), noisy = !fails && report.noisyCells.contains(name);
+    failed += fails ? 1 : 0;
+    skippedCases += noisy ? 1 : 0;
+    cases += testCase(name, fails ? failureOf(failures[name]) : noisy ? skipped(kNoisy) : "");
+  }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}</testsuite>\n",
-      xmlEscaped(suiteName), names.size() + 1,
-      std::ranges::count_if(names, [&](const std::string& name) { return !failures[name].empty(); }),
-      report.verdict == Verdict::drift ? 1 : 0, cases);
+      xmlEscaped(suiteName), names.size() + 1, failed, skippedCases, cases);
 }
 
 }  // namespace pb

@@ -51,6 +51,7 @@ Provenance makeProvenance(const Suite& suite, const Scenes& scenes, const GlInfo
   provenance.libraries = libraryVersions();
   provenance.settings = settingsOf(suite);
   provenance.seed = ReferenceSettings().seed;
+  provenance.maxNoise = suite.reference.maxNoise;
   std::map<std::string, std::uint64_t> contents;  // a scene may stand there with several cameras
   for (std::size_t i = 0; i < scenes.size(); ++i)
     mixContent(contents[suite.scenes[i].name], scenes[i], suite.scenes[i], suite.image.aspect());

@@ -1,6 +1,8 @@
 #include "bench/results.h"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "bench/results_json.h"
 #include "scenes/error.h"
@@ -82,6 +84,12 @@ void appendCell(const CellResult& cell, const std::vector<std::string>& axes, st
   }
 }
 
+// relMSE of the reference's floor.
+std::optional<double> noiseOf(const CellResult& cell) {
+  const auto found = std::ranges::find(cell.floor, "relmse", &MetricValues::value_type::first);
+  return found == cell.floor.end() ? std::nullopt : std::optional(found->second);
+}
+
 }  // namespace
 
 std::optional<double> metricValue(const Metrics& metrics, const std::string& key) {
@@ -97,6 +105,21 @@ std::string CellResult::sequenceKey() const {
 
 std::string CellResult::key() const {
   return fmt::format("scene={} camera={} frame={}{}", scene, camera, frame, axesText(*this));
+}
+
+bool isTooNoisy(const CellResult& cell, const std::optional<double>& maxNoise) {
+  const std::optional<double> noise = noiseOf(cell);
+  return noise && maxNoise && !(*noise <= *maxNoise);
+}
+
+std::vector<NoisyReference> findNoisyReferences(const std::vector<CellResult>& cells,
+                                                const std::optional<double>& maxNoise) {
+  std::vector<NoisyReference> noisy;
+  std::set<std::tuple<std::string, std::string, int>> seen;
+  for (const CellResult& cell : cells)
+    if (isTooNoisy(cell, maxNoise) && seen.emplace(cell.scene, cell.camera, cell.frame).second)
+      noisy.push_back({cell.scene, cell.camera, cell.frame, *noiseOf(cell)});
+  return noisy;
 }
 
 Results readResults(const std::string& runDirectory) {

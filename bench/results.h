@@ -35,7 +35,8 @@ struct Provenance {
   // Image size, samples, reference depth and noise, ... as the reader should see them: name -> value, in print order.
   std::vector<std::pair<std::string, std::string>> settings;
   std::uint64_t seed = 0;
-  std::string controlOutcome;  // kControlPassed or why not; of `certify`'s control, run before the suite
+  std::optional<double> maxNoise;  // largest relMSE of a reference's own noise that the suite accepts
+  std::string controlOutcome;      // kControlPassed or why not; of `certify`'s control, run before the suite
 };
 
 // Some metrics by their keys (see metricTable()).
@@ -72,6 +73,19 @@ struct CellResult {
   // The same without the frame: cells of one sequence share their cost.
   std::string sequenceKey() const;
 };
+
+// A reference whose own noise is above max_noise: what is scored against it proves nothing.
+struct NoisyReference {
+  std::string scene, camera;
+  int frame = 0;
+  double noise = 0;  // relMSE
+};
+
+// Whether the cell's reference is one of those; false where its floor or the limit is not known.
+bool isTooNoisy(const CellResult& cell, const std::optional<double>& maxNoise);
+// Each once, in the order of the cells, which share the reference of their frame.
+std::vector<NoisyReference> findNoisyReferences(const std::vector<CellResult>& cells,
+                                                const std::optional<double>& maxNoise);
 
 struct Results {
   Provenance provenance;

@@ -133,6 +133,7 @@ Json provenanceToJson(const Provenance& provenance) {
   for (const auto& field : kProvenanceTexts) json[field.key] = provenance.*field.member;
   json["threads"] = provenance.threads;
   json["seed"] = provenance.seed;
+  json["max_noise"] = provenance.maxNoise ? Json(*provenance.maxNoise) : Json();
   json["settings"] = objectOf(provenance.settings);
   json["scene_hashes"] = objectOf(provenance.sceneHashes);
   json["libraries"] = objectOf(provenance.libraries);
@@ -144,6 +145,9 @@ Provenance provenanceFromJson(const Json& json) {
   for (const auto& field : kProvenanceTexts) provenance.*field.member = json.at(field.key).get<std::string>();
   provenance.threads = json.at("threads").get<int>();
   provenance.seed = json.at("seed").get<std::uint64_t>();
+  // Files from before it was recorded don't have it.
+  if (const auto noise = json.find("max_noise"); noise != json.end() && !noise->is_null())
+    provenance.maxNoise = noise->get<double>();
   provenance.settings = pairsOf<std::string>(json.at("settings"));
   for (auto& [name, hash] : pairsOf<std::string>(json.at("scene_hashes"))) provenance.sceneHashes[name] = hash;
   for (auto& [name, version] : pairsOf<std::string>(json.at("libraries"))) provenance.libraries[name] = version;

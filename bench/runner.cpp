@@ -8,7 +8,6 @@
 #include <mutex>
 #include <numeric>
 #include <set>
-#include <tuple>
 
 #include "bench/axes.h"
 #include "bench/cost.h"
@@ -87,7 +86,7 @@ class Runner {
     RunOutcome outcome;
     outcome.cells = orderedCells();
     if (c_.suite.cost.repetitions > 0) outcome.benchmarkJson = measureCost(outcome.cells);
-    outcome.noisyReferences = noisyReferences(outcome.cells);
+    outcome.noisyReferences = describeNoisyReferences(outcome.cells);
     return outcome;
   }
 
@@ -219,19 +218,13 @@ class Runner {
   }
 
   // From the cells, so that those of an earlier, interrupted run count too.
-  std::vector<std::string> noisyReferences(const std::vector<CellResult>& cells) const {
-    std::vector<std::string> noisy;
+  std::vector<std::string> describeNoisyReferences(const std::vector<CellResult>& cells) const {
     const std::optional<double> limit = c_.suite.reference.maxNoise;
-    if (!limit) return noisy;
-    std::set<std::tuple<std::string, std::string, int>> seen;  // the cells of a frame share its reference
-    for (const CellResult& cell : cells) {
-      const auto noise = std::ranges::find(cell.floor, "relmse", &MetricValues::value_type::first);
-      if (noise == cell.floor.end() || noise->second <= *limit) continue;
-      if (seen.emplace(cell.scene, cell.camera, cell.frame).second)
-        noisy.push_back(fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at {} samples",
-                                    *limit, cell.scene, cell.frame, noise->second, mostSpp(c_.suite.reference)));
-    }
-    return noisy;
+    std::vector<std::string> sentences;
+    for (const NoisyReference& noisy : findNoisyReferences(cells, limit))
+      sentences.push_back(fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at {} samples",
+                                      *limit, noisy.scene, noisy.frame, noisy.noise, mostSpp(c_.suite.reference)));
+    return sentences;
   }
 
   // All costs belong to one run of the machine: they are measured together, also after --resume.

@@ -54,7 +54,8 @@ void addBlessCommand(CLI::App& app, const GlobalOptions&, Action& action) {
   const auto options = std::make_shared<GateOptions>();
   addRunAndBaseline(*command, *options);
   command->add_option("--reason", options->reason, "why the numbers may change; stored")->required();
-  command->add_flag("--force", options->force, "also over a baseline of another GL driver");
+  command->add_flag("--force", options->force,
+                    "also over a baseline of another GL driver, and with references noisier than max_noise");
   command->callback([&action, options] { action = [options] { return blessRun(*options); }; });
 }
 

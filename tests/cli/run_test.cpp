@@ -210,6 +210,17 @@ TEST(Run, WithANoisyReference_IsInconclusiveAlsoWhenResumed) {
   const ProgramResult resumed = workplace.run("run", {"--resume"});
   EXPECT_EQ(resumed.exitCode, 4) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("2 references are too noisy"));
+
+  std::vector<std::string> bless = {"bless",  workplace.path("run"), "--baseline", workplace.path("b.json"), "--reason",
+                                    "because"};
+  const ProgramResult refused = runProgram(bless);
+  EXPECT_EQ(refused.exitCode, 4) << refused.err;
+  EXPECT_FALSE(fs::exists(workplace.path("b.json")));
+  bless.emplace_back("--force");
+  EXPECT_EQ(runProgram(bless).exitCode, 0);
+  const ProgramResult checked = runProgram({"check", workplace.path("run"), "--baseline", workplace.path("b.json")});
+  EXPECT_EQ(checked.exitCode, 4) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("* Noise: max_noise is 1e-12, but references of scene"));
 }
 
 TEST(Run, ThatCantStart_KeepsTheEarlierRun) {

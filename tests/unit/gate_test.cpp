@@ -206,6 +206,52 @@ TEST(Gate, OtherDriver_IsDriftUnlessAMetricChanged) {
   }
 }
 
+// `noise` is the relMSE of the reference's floor; the samples' max_noise is 1e-5.
+Results withNoise(Results run, double noise) {
+  for (CellResult& cell : run.cells) cell.floor = {{"mse", noise}, {"relmse", noise}};
+  return run;
+}
+
+TEST(Gate, NoisyReference_IsInconclusiveUnlessSomethingChanged) {
+  const Results before = runWith(0.5);
+  Results noisy = withNoise(before, 3.21e-5);
+  const GateReport report = check(noisy, baselineOf(before));
+  EXPECT_EQ(report.verdict, Verdict::inconclusive);
+  EXPECT_TRUE(report.findings.empty());
+  EXPECT_THAT(report.noisyCells, testing::ElementsAre(noisy.cells[0].key()));
+  noisy.cells[0].metrics.sums.relmse = 1.0;
+  EXPECT_EQ(verdictOf(before, noisy), Verdict::fail);
+}
+
+TEST(Gate, NoisyReference_IsSaidOnceAScene) {
+  const Results before = samples::makeResults();
+  Results noisy = before;
+  for (CellResult& cell : noisy.cells)
+    if (cell.scene == "builtin:a") cell.floor = {{"relmse", cell.frame == 0 ? 2e-5 : 3.21e-5}};
+  EXPECT_THAT(check(noisy, baselineOf(before)).notes,
+              testing::ElementsAre("Noise: max_noise is 1e-05, but references of scene 'builtin:a' have up to "
+                                   "3.21e-05, in 2 of its frames."));
+}
+
+TEST(Gate, NoiseAtTheLimitOrWithoutOne_Passes) {
+  const Results before = runWith(0.5);
+  EXPECT_EQ(verdictOf(before, withNoise(before, 1e-5)), Verdict::pass);
+  Results unlimited = withNoise(before, 1.0);
+  unlimited.provenance.maxNoise.reset();
+  EXPECT_EQ(verdictOf(unlimited, unlimited), Verdict::pass);
+}
+
+TEST(Gate, LoosenedMaxNoise_DoesNotPassUnnoticed) {
+  const Results before = runWith(0.5);
+  Results loosened = withNoise(before, 3.21e-5);
+  for (const std::optional<double> limit : {std::optional(1.0), std::optional<double>()}) {
+    loosened.provenance.maxNoise = limit;
+    const GateReport report = check(loosened, baselineOf(before));
+    EXPECT_EQ(report.verdict, Verdict::inconclusive);
+    EXPECT_THAT(report.notes, testing::Contains(HasSubstr("in the baseline")));
+  }
+}
+
 TEST(Gate, FailedControl_FailsTheRun) {
   Results after = runWith(0.5);
   after.provenance.controlOutcome = "relMSE 1e-3 > 1e-5";
@@ -300,6 +346,7 @@ TEST(Gate, LargestExcess_StandsFirst) {
 TEST(Gate, ExitCodes_AreThoseOfTheCommandLine) {
   EXPECT_EQ(exitCode(Verdict::pass), 0);
   EXPECT_EQ(exitCode(Verdict::fail), 1);
+  EXPECT_EQ(exitCode(Verdict::inconclusive), 4);
   EXPECT_EQ(exitCode(Verdict::drift), 4);
 }
 
@@ -364,6 +411,31 @@ TEST(GateOutput, JUnit_SkipsTheDriverTestOnDrift) {
   EXPECT_THAT(xml, AllOf(HasSubstr("failures=\"0\""), HasSubstr("skipped=\"1\""), HasSubstr("<skipped message=\"")));
 }
 
+TEST(GateOutput, OfNoise_NamesItAndDoesNotOfferToBless) {
+  const Results before = samples::makeResults();
+  Results noisy = before;
+  noisy.cells[0].floor = {{"relmse", 1.0}};
+  noisy.cells[1].floor = {{"relmse", 1.0}};
+  noisy.cells[1].counters[0].second += 1;
+  const GateReport failing = check(noisy, baselineOf(before));
+  EXPECT_THAT(toJUnit(failing, "quick"), AllOf(HasSubstr("failures=\"1\""), HasSubstr("skipped=\"1\""),
+                                               HasSubstr("<skipped message=\"within tolerance")));
+  noisy.cells[1].counters = before.cells[1].counters;
+  const GateReport report = check(noisy, baselineOf(before));
+  EXPECT_THAT(printGateReport(report, "probebench bless RUN"),
+              AllOf(HasSubstr("inconclusive: 9 cells, 0 differences"), HasSubstr("* Noise: max_noise is 1e-05"),
+                    Not(HasSubstr("bless"))));
+  const nlohmann::json json = nlohmann::json::parse(toJson(report));
+  EXPECT_EQ(json.at("verdict"), "inconclusive");
+  EXPECT_EQ(json.at("noisy_cells").size(), 2u);
+}
+
+TEST(Baseline, FromBeforeMaxNoiseWasStored_IsRead) {
+  nlohmann::ordered_json document = nlohmann::ordered_json::parse(toJson(baselineOf(samples::makeResults())));
+  document["provenance"].erase("max_noise");
+  EXPECT_FALSE(baselineFromJson(document.dump(), "b.json").provenance.maxNoise.has_value());
+}
+
 TEST(Baseline, JsonRoundTrip_IsExactAndGatesAlike) {
   const Results run = samples::makeResults();
   const std::string text = toJson(baselineOf(run));
@@ -371,6 +443,7 @@ TEST(Baseline, JsonRoundTrip_IsExactAndGatesAlike) {
   EXPECT_EQ(toJson(read), text);
   EXPECT_EQ(read.reason, "because");
   EXPECT_EQ(read.tolerance, run.tolerance);
+  EXPECT_EQ(read.provenance.maxNoise, run.provenance.maxNoise);
   EXPECT_EQ(check(run, read).verdict, Verdict::pass);
 }
 
@@ -452,6 +525,21 @@ TEST_F(Bless, RefusesAnotherDriverUnlessForced) {
   EXPECT_EQ(readBaseline(path_).reason, "first");
   bless(run, path_, "second", true);
   EXPECT_EQ(readBaseline(path_).reason, "second");
+}
+
+TEST_F(Bless, RefusesNoisyReferencesUnlessForced) {
+  const Results noisy = withNoise(samples::makeResults(), 3.21e-5);
+  try {
+    bless(noisy, path_, "why", false);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Failure::inconclusive);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("max_noise is 1e-05"), HasSubstr("3 references"),
+                                    HasSubstr("'builtin:a' frame 0 with 3.21e-05"), HasSubstr("--force")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path_));
+  bless(noisy, path_, "why", true);
+  EXPECT_EQ(check(noisy, readBaseline(path_)).verdict, Verdict::inconclusive);
 }
 
 TEST_F(Bless, ReplacesADamagedBaselineOnlyByForce) {

@@ -74,6 +74,7 @@ inline Provenance makeProvenance() {
   p.sceneHashes = {{"builtin:a", "aaaa"}};
   p.settings = {{"size", "640x360"}, {"samples", "4"}};
   p.seed = 0xffffffffffffffffU;  // does not fit a double
+  p.maxNoise = 1e-5;
   p.controlOutcome = kControlPassed;
   return p;
 }
