@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
 #include "scenes/error.h"
 #include "scenes/snapshot.h"
@@ -69,6 +70,28 @@ void checkTrack(const Scene& scene, const Track& track) {
     if (!std::isfinite(track.timesSeconds[k]) || (k > 0 && track.timesSeconds[k] <= track.timesSeconds[k - 1]))
       throwInputError("animation of node '{}' wants increasing key times, got {} at key {}", node,
                       track.timesSeconds[k], k);
+  if (track.target == TrackTarget::rotation) return;
+  for (const glm::vec4& value : track.values)
+    for (const float number : {value.x, value.y, value.z})
+      if (!(std::abs(number) <= kLargestTransform))
+        throwInputError("animation of node '{}' wants numbers from -{:g} to {:g}, got {:g}", node, kLargestTransform,
+                        kLargestTransform, number);
+}
+
+// What is scaled to a line or a point has no area and no normals.
+void warnAboutCollapsed(Scene& scene) {
+  const std::vector<WorldMesh> meshes = worldMeshes(scene, 0.0);
+  constexpr float kSmallestArea = 1.0f / (kLargestTransform * kLargestTransform);
+  std::set<int> named;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const glm::mat3 m(meshes[i].worldFromObject);
+    const float area = std::max({glm::length(glm::cross(m[0], m[1])), glm::length(glm::cross(m[1], m[2])),
+                                 glm::length(glm::cross(m[2], m[0]))});
+    const int node = scene.instances[i].node;
+    if (area >= kSmallestArea || !named.insert(node).second) continue;
+    scene.warnings.push_back(fmt::format("node '{}' is scaled to nothing at the start: its mesh is not seen",
+                                         scene.nodes[static_cast<std::size_t>(node)].name));
+  }
 }
 
 void checkScreen(const Scene& scene, const Screen& screen) {
@@ -239,6 +262,7 @@ void finishScene(Scene& scene) {
     checkScreen(scene, screen);
     scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(screen.periodSeconds));
   }
+  warnAboutCollapsed(scene);
   if (scene.environment.faces.empty())
     scene.environment.faces.assign(6, ImageRgba(1, 1, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
   if (scene.cameras.empty()) {

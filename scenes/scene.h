@@ -111,6 +111,10 @@ struct ProbeSettings {
   std::optional<glm::vec3> position;  // in the node's space; otherwise the centre of the world bounding box
 };
 
+// Bounds of translations, scales and matrices, of single nodes and in world space, where they multiply: the product of
+// three, a determinant, still fits into float.
+inline constexpr float kLargestTransform = 1e9f, kLargestWorldTransform = 1e12f;
+
 struct Node {
   std::string name;
   int parent = -1;  // always smaller than the node's own index
@@ -204,8 +208,8 @@ bool hasSpecularLobe(const Material& material);
 // settings at the node, a specular-dominant one.
 bool ownsProbe(const Scene& scene, const Instance& instance);
 
-// Last steps of building any scene: checks indices, adds a camera that frames everything if there is none, computes
-// durationSeconds, gives an unused environment its black faces.
+// Last steps of building any scene: checks indices, tracks and the transforms at time 0, adds a camera that frames
+// everything if there is none, computes durationSeconds, gives an unused environment its black faces.
 void finishScene(Scene& scene);
 
 // A camera that sees the whole box from the front and a little above.

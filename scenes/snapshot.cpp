@@ -31,6 +31,15 @@ glm::mat4 localMatrix(const Node& node, const Pose& pose) {
   return glm::scale(glm::translate(glm::mat4(1.0f), pose.translation) * rotation, pose.scale);
 }
 
+// The scales of a chain of nodes multiply, also beyond what float holds.
+void checkWorldMatrix(const Scene& scene, const Node& node, const glm::mat4& world, double timeSeconds) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 3; ++row)
+      if (const float number = world[column][row]; !(std::abs(number) <= kLargestWorldTransform))
+        throwInputError("world transforms hold numbers up to {:g}, that of node '{}' of scene '{}' has {:g} at {:g} s",
+                        kLargestWorldTransform, node.name, scene.name, number, timeSeconds);
+}
+
 std::vector<glm::mat4> worldMatrices(const Scene& scene, double timeSeconds) {
   std::vector<Pose> poses;
   poses.reserve(scene.nodes.size());
@@ -55,6 +64,7 @@ std::vector<glm::mat4> worldMatrices(const Scene& scene, double timeSeconds) {
     const int parent = scene.nodes[n].parent;
     const glm::mat4 local = localMatrix(scene.nodes[n], poses[n]);
     world[n] = parent < 0 ? local : world[static_cast<std::size_t>(parent)] * local;
+    checkWorldMatrix(scene, scene.nodes[n], world[n], timeSeconds);
   }
   return world;
 }

@@ -57,7 +57,8 @@ struct Snapshot {
 // brightest first; those that don't fit are only seen.
 inline constexpr std::size_t kMaxAreaLights = 64;
 
-// Every instance's mesh with its world transform; for bounds before there is a camera.
+// Every instance's mesh with its world transform; for bounds before there is a camera. Throws an input Error naming the
+// node if a world transform holds numbers beyond kLargestWorldTransform.
 struct WorldMesh {
   glm::mat4 worldFromObject;
   std::shared_ptr<const Mesh> mesh;
@@ -65,7 +66,7 @@ struct WorldMesh {
 std::vector<WorldMesh> worldMeshes(const Scene& scene, double timeSeconds);
 
 // The scene at `frame` (looped if it is animated) through the camera of that name ("" for the first).
-// aspect is width / height. Throws an input Error for an unknown camera.
+// aspect is width / height. Throws an input Error for an unknown camera and as worldMeshes() does.
 std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene, int frame, const std::string& camera,
                                              double aspect);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenes/error.h"
+#include "scenes/scene.h"
 
 namespace pb::gltf {
 namespace {
@@ -19,8 +20,7 @@ constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
 // The sun has 2e7 W/(sr m^2); products of two such numbers still fit into float.
 constexpr double kLargestRadiance = 1e9;
-// Of translations, scales and matrices; the product of three, a determinant, still fits into float.
-constexpr double kLargestTransform = 1e9;
+constexpr auto kLargestNumber = static_cast<double>(kLargestTransform);
 
 enum class Type { index, indices, size, number, numbers, text, boolean, object };
 
@@ -103,10 +103,10 @@ constexpr std::array kRules = {
     indexRule("nodes/*", "mesh", "meshes"),
     indexRule("nodes/*", "camera", "cameras"),
     indexRule("nodes/*", "skin", "skins"),
-    numbersRule("nodes/*", "matrix", 16, -kLargestTransform, kLargestTransform),
-    numbersRule("nodes/*", "translation", 3, -kLargestTransform, kLargestTransform),
+    numbersRule("nodes/*", "matrix", 16, -kLargestNumber, kLargestNumber),
+    numbersRule("nodes/*", "translation", 3, -kLargestNumber, kLargestNumber),
     numbersRule("nodes/*", "rotation", 4),
-    numbersRule("nodes/*", "scale", 3, -kLargestTransform, kLargestTransform),
+    numbersRule("nodes/*", "scale", 3, -kLargestNumber, kLargestNumber),
     indexRule("nodes/*/extensions/KHR_lights_punctual", "light", kLights, true),
     indicesRule("scenes/*", "nodes", "nodes"),
     indexRule("", "scene", "scenes"),

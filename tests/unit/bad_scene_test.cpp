@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scenes/error.h"
 #include "scenes/scene.h"
+#include "scenes/snapshot.h"
 
 namespace pb {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -53,6 +57,51 @@ INSTANTIATE_TEST_SUITE_P(Corpus, BadScene, ::testing::ValuesIn(sceneFiles()), []
 });
 
 TEST(BadSceneCorpus, HasAtLeastFortyFiles) { EXPECT_GE(sceneFiles().size(), 40U); }
+
+std::string refusalOf(auto function) {
+  try {
+    function();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), Failure::input);
+    return e.what();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return "";
+}
+
+TEST(WorldTransform, BeyondTheBound_IsRefusedNamingTheNode) {
+  EXPECT_THAT(refusalOf([] { loadScene(pathOf("node-scales-multiply-too-large.gltf")); }),
+              AllOf(HasSubstr("node 'product'"), HasSubstr("has 1e+14 at 0 s")));
+  // The first node of the chain whose product is too large.
+  EXPECT_THAT(refusalOf([] { loadScene(pathOf("node-scales-multiply-to-infinity.gltf")); }),
+              HasSubstr("node 'link 1'"));
+  EXPECT_THAT(refusalOf([] { loadScene(pathOf("animation-scale-too-large.gltf")); }),
+              AllOf(HasSubstr("node 'triangle'"), HasSubstr("1e+10")));
+  EXPECT_THAT(refusalOf([] { loadScene(pathOf("animation-scale-nan.gltf")); }),
+              AllOf(HasSubstr("node 'triangle'"), HasSubstr("nan")));
+}
+
+TEST(WorldTransform, ThatCollapses_IsWarnedAboutNamingTheNode) {
+  const auto scene = loadScene(pathOf("warn-node-scaled-to-nothing.gltf"));
+  EXPECT_THAT(scene->warnings, ElementsAre("node 'product' is scaled to nothing at the start: its mesh is not seen"));
+}
+
+// Two animated scales, each within the bound, whose product is not in frame 30.
+TEST(WorldTransform, ThatGrowsBeyondTheBound_IsRefusedAtThatFrame) {
+  auto scene = std::make_shared<Scene>();
+  scene->name = "growing";
+  scene->nodes.resize(2);
+  scene->nodes[0].name = "outer";
+  scene->nodes[1].name = "inner";
+  scene->nodes[1].parent = 0;
+  for (const int node : {0, 1})
+    scene->tracks.push_back(
+        {node, TrackTarget::scale, Interpolation::linear, {0.0f, 2.0f}, {glm::vec4(1.0f), glm::vec4(1e8f)}});
+  finishScene(*scene);
+  EXPECT_NE(makeSnapshot(scene, 0, "", 1.0), nullptr);
+  EXPECT_THAT(refusalOf([&] { makeSnapshot(scene, 30, "", 1.0); }),
+              AllOf(HasSubstr("node 'inner' of scene 'growing'"), HasSubstr("at 1 s")));
+}
 
 TEST(SceneReference, ThatIsWrong_IsRefusedNamingTheValue) {
   const std::string odd = pathOf("warn-skin.gltf");

@@ -288,6 +288,40 @@ def _(scene):
     scene.json["animations"][0]["samplers"][0]["output"] = 6
 
 
+@change("node-scales-multiply-too-large")
+def _(scene):
+    scene.json["nodes"][0].update({"scale": [1e7] * 3, "children": [3]})
+    scene.json["nodes"].append({"name": "product", "mesh": 0, "scale": [1e7] * 3})
+
+
+@change("node-scales-multiply-to-infinity")
+def _(scene):
+    scene.json["nodes"] += [{"name": "link %d" % i, "scale": [1e9] * 3, "children": [4 + i]} for i in range(6)]
+    scene.json["nodes"].append({"name": "infinite", "mesh": 0})
+    scene.json["scenes"][0]["nodes"].append(3)
+
+
+def animate_scale(scene, values):
+    scene.json["animations"][0]["channels"][0]["target"]["path"] = "scale"
+    scene.replace_floats(5, values)
+
+
+@change("animation-scale-too-large")
+def _(scene):
+    animate_scale(scene, [1, 1, 1, 1, 1, 1e10])
+
+
+@change("animation-scale-nan")
+def _(scene):
+    animate_scale(scene, [1, 1, 1, 1, math.nan, 1])
+
+
+@change("warn-node-scaled-to-nothing")
+def _(scene):
+    scene.json["nodes"][0].update({"scale": [1e-6] * 3, "children": [3]})
+    scene.json["nodes"].append({"name": "product", "mesh": 0, "scale": [1e-6, 1e-6, 1]})
+
+
 @change("warn-deep-hierarchy")
 def _(scene):
     scene.json["nodes"] += [{"children": [4 + i]} for i in range(3000)] + [{"mesh": 0}]
