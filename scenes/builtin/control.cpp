@@ -176,6 +176,8 @@ Scene makeControlScene(SpecReader& parameters) {
 Scene makeControlShadowsScene(SpecReader& parameters) {
   Scene scene = makeControlScene(parameters);
   scene.castsShadows = true;
+  // Little ambient light, which has no shadows, so that they are deep.
+  scene.environment.ambient = constantAmbient(glm::vec3(0.12f));
   // Shadow maps belong to punctual lights: the lamp is only another box here.
   for (Material& material : scene.materials) material.constants.emission = {0.0f, 0.0f, 0.0f, 1.0f};
   return scene;

@@ -105,17 +105,17 @@ struct Placement {
   float yawDegrees, pitchDegrees, rollDegrees;
 };
 const std::array<Placement, 12> kPlacements = {{
-    {{-0.55f, 0.38f, 0.0f}, 8.0f, 0.0f, 0.0f},
-    {{0.62f, 0.38f, 0.05f}, -12.0f, 0.0f, 0.0f},
-    {{0.0f, 1.14f, -0.05f}, 4.0f, 0.0f, 0.0f},
-    {{-1.75f, 0.38f, 0.2f}, 30.0f, 0.0f, 0.0f},
-    {{1.85f, 0.38f, 0.25f}, -35.0f, 0.0f, 0.0f},
-    {{-1.1f, 1.14f, 0.0f}, 18.0f, 0.0f, 0.0f},
-    {{1.15f, 1.14f, 0.05f}, -20.0f, 0.0f, 0.0f},
-    {{-0.45f, 1.94f, -0.1f}, 12.0f, 0.0f, 5.0f},
+    {{-0.55f, 0.38f, 0.0f}, 25.0f, 0.0f, 0.0f},
+    {{0.62f, 0.38f, 0.05f}, -18.0f, 0.0f, 0.0f},
+    {{0.0f, 1.14f, -0.05f}, 12.0f, 0.0f, 0.0f},
+    {{-1.75f, 0.38f, 0.2f}, -20.0f, 0.0f, 0.0f},
+    {{1.85f, 0.38f, 0.25f}, 35.0f, 0.0f, 0.0f},
+    {{-1.1f, 1.14f, 0.0f}, -35.0f, 0.0f, 0.0f},
+    {{1.15f, 1.14f, 0.05f}, 40.0f, 0.0f, 0.0f},
+    {{-0.45f, 1.94f, -0.1f}, -28.0f, 0.0f, 5.0f},
     {{-1.5f, 0.47f, 1.35f}, 40.0f, 0.0f, 90.0f},
     {{1.35f, 0.62f, 1.45f}, -25.0f, -68.0f, 0.0f},
-    {{0.6f, 1.94f, 0.0f}, -25.0f, 0.0f, -4.0f},
+    {{0.6f, 1.94f, 0.0f}, 30.0f, 0.0f, -4.0f},
     {{0.1f, 0.55f, 1.5f}, 10.0f, -40.0f, 20.0f},
 }};
 
@@ -177,8 +177,14 @@ void addRoom(Scene& scene) {
   boards.constants.baseColorSlot.matrix = {4.0f, 0.0f, 0.0f, 4.0f};
   addInstance(scene, "Floor", finishMesh(makeQuadMesh({-6, 0, 6}, {12, 0, 0}, {0, 0, -9})),
               addMaterial(scene, std::move(boards)));
-  addInstance(scene, "Wall", finishMesh(makeQuadMesh({-6, 0, -1.6f}, {12, 0, 0}, {0, 5, 0})),
-              addMaterial(scene, makeDiffuseMaterial("Wall", {0.5f, 0.52f, 0.55f})));
+  const auto wall = [&](const char* name, glm::vec3 corner, glm::vec3 along, glm::vec3 albedo) {
+    addInstance(scene, name, finishMesh(makeQuadMesh(corner, along, {0, 4, 0})),
+                addMaterial(scene, makeDiffuseMaterial(name, albedo)));
+  };
+  // The side walls are what most mirrors show.
+  wall("Back wall", {-4, 0, -1.6f}, {8, 0, 0}, {0.50f, 0.52f, 0.55f});
+  wall("Left wall", {-4, 0, 3}, {0, 0, -4.6f}, {0.60f, 0.22f, 0.14f});
+  wall("Right wall", {4, 0, -1.6f}, {0, 0, 4.6f}, {0.16f, 0.42f, 0.30f});
 }
 
 }  // namespace
@@ -188,9 +194,9 @@ Scene makeCrtHeapScene(SpecReader& parameters) {
   Scene scene;
   addRoom(scene);
   addMonitors(scene, count);
-  addCamera(scene, "Camera", {0.6f, 1.7f, 5.4f}, {0.0f, 0.95f, 0.0f}, glm::radians(38.0f), 0.1f);
-  addDirectionalLight(scene, "Moon", {-0.4f, 0.9f, 0.5f}, glm::vec3(0.15f, 0.18f, 0.25f));
-  scene.environment = makeConstantEnvironment(glm::vec3(0.04f, 0.05f, 0.08f));
+  addCamera(scene, "Camera", {-0.9f, 2.0f, 5.2f}, {0.0f, 0.9f, 0.0f}, glm::radians(36.0f), 0.1f);
+  addDirectionalLight(scene, "Moon", {-0.4f, 0.9f, 0.7f}, glm::vec3(0.5f, 0.6f, 0.8f));
+  scene.environment = makeConstantEnvironment(glm::vec3(0.12f, 0.14f, 0.2f));
   return scene;
 }
 

@@ -12,9 +12,9 @@
 namespace pb {
 namespace {
 
-constexpr int kSlits = 9;
-constexpr float kSlitSpacing = 1.0f;
-constexpr float kWallZ = -3.0f;
+constexpr int kSlits = 11;
+constexpr float kSlitSpacing = 0.6f;
+constexpr float kWallZ = -2.2f;
 
 // Index of refraction at 587.6 nm and Abbe number. Glasses: Schott's data sheets of F2, SF6 and N-BK7; diamond: the
 // table in KHR_materials_dispersion.
@@ -117,18 +117,19 @@ void addGlasses(Scene& scene) {
   };
   Material green = makeDispersiveGlass(kCrown, 0.6f);
   setAttenuation(green, {0.15f, 0.75f, 0.35f}, 0.6f);
-  addGlass(scene, "Prism", makePrismMesh(60.0f, 0.9f, 1.5f), glass(kFlint, 0.5f), {-1.5f, 0.0f, 0.2f}, turned(62.0f));
-  addGlass(scene, "Wedge", makePrismMesh(30.0f, 0.9f, 1.3f), glass(kDenseFlint, 0.3f), {0.0f, 0.0f, -0.9f},
-           turned(84.0f));
-  addGlass(scene, "Column", makeHexagonMesh(0.42f, 1.1f), addMaterial(scene, std::move(green)), {1.7f, 0.0f, -0.3f},
+  // Turned so that the camera's rays cross prism and wedge near the angle of least deviation, towards the slits.
+  addGlass(scene, "Prism", makePrismMesh(60.0f, 0.9f, 1.5f), glass(kFlint, 0.5f), {-1.45f, 0.0f, 0.2f}, turned(87.0f));
+  addGlass(scene, "Wedge", makePrismMesh(30.0f, 0.9f, 1.3f), glass(kDenseFlint, 0.3f), {-0.15f, 0.0f, -0.6f},
+           turned(80.0f));
+  addGlass(scene, "Column", makeHexagonMesh(0.42f, 1.1f), addMaterial(scene, std::move(green)), {1.85f, 0.0f, 0.2f},
            turned(12.0f));
-  addGlass(scene, "Gem", makeGemMesh(0.55f), glass(kDiamond, 0.6f), {0.35f, 0.0f, 0.9f}, turned(15.0f, 48.0f));
+  addGlass(scene, "Gem", makeGemMesh(0.55f), glass(kDiamond, 0.6f), {0.75f, 0.0f, 1.0f}, turned(15.0f, 48.0f));
 }
 
 void addSlits(Scene& scene) {
   Node wall;
   wall.translation = {0.0f, 1.5f, kWallZ - 0.1f};
-  addInstance(scene, "Wall", finishMesh(makeBoxMesh({10.0f, 3.0f, 0.16f})),
+  addInstance(scene, "Wall", finishMesh(makeBoxMesh({12.0f, 3.0f, 0.16f})),
               addMaterial(scene, makeDiffuseMaterial("Wall", glm::vec3(0.04f))), wall);
   Material light = makeDiffuseMaterial("Slit", glm::vec3(0.0f));
   light.constants.emission = {12.0f, 12.0f, 12.0f, 1.0f};
@@ -136,7 +137,7 @@ void addSlits(Scene& scene) {
   for (int k = 0; k < kSlits; ++k) {
     const float x = kSlitSpacing * (static_cast<float>(k) - 0.5f * static_cast<float>(kSlits - 1));
     addInstance(scene, "Slit_" + std::to_string(k),
-                finishMesh(makeQuadMesh({x - 0.02f, 0.3f, kWallZ}, {0.04f, 0, 0}, {0, 2.4f, 0})), material);
+                finishMesh(makeQuadMesh({x - 0.02f, 0.1f, kWallZ}, {0.04f, 0, 0}, {0, 2.5f, 0})), material);
   }
 }
 
@@ -174,7 +175,7 @@ Scene makeDispersionScene(SpecReader& /*parameters*/) {
   addGround(scene);
   addSlits(scene);
   addGlasses(scene);
-  addCamera(scene, "Camera", {0.2f, 1.5f, 4.6f}, {0.1f, 0.65f, 0.0f}, glm::radians(38.0f), 0.1f);
+  addCamera(scene, "Camera", {0.15f, 1.05f, 4.6f}, {0.15f, 0.75f, 0.0f}, glm::radians(34.0f), 0.1f);
   scene.environment = makeGradientEnvironment(makeDimSky());
   return scene;
 }

@@ -70,8 +70,8 @@ void addBoxes(Scene& scene, float width) {
     glm::vec3 albedo;
   };
   const float side = 0.5f * width + 1.2f;
-  const std::array<Box, 6> boxes = {{{{0.9f, 1.8f, 0.9f}, {-side, 0.9f, -0.6f}, 20.0f, {0.75f, 0.12f, 0.10f}},
-                                     {{0.9f, 1.2f, 0.9f}, {side, 0.6f, -0.2f}, -30.0f, {0.10f, 0.25f, 0.75f}},
+  const std::array<Box, 6> boxes = {{{{0.9f, 1.8f, 0.9f}, {-side, 0.9f, -1.4f}, 20.0f, {0.75f, 0.12f, 0.10f}},
+                                     {{0.9f, 1.2f, 0.9f}, {side, 0.6f, -0.9f}, -30.0f, {0.10f, 0.25f, 0.75f}},
                                      {{0.5f, 0.3f, 0.5f}, {-1.1f, 0.15f, 1.3f}, 40.0f, {0.85f, 0.65f, 0.10f}},
                                      {{0.5f, 0.4f, 0.5f}, {1.3f, 0.2f, 1.4f}, 10.0f, {0.15f, 0.60f, 0.20f}},
                                      {{1.6f, 3.0f, 1.0f}, {-2.5f, 1.5f, 6.5f}, 15.0f, {0.80f, 0.40f, 0.08f}},
@@ -93,13 +93,13 @@ Scene makeMetalsScene(SpecReader& parameters) {
   const float width = kSpacing * static_cast<float>(columns) + 0.2f;
   Scene scene;
   addInstance(scene, "Ground", finishMesh(makeQuadMesh({-15, 0, 15}, {30, 0, 0}, {0, 0, -30})),
-              addMaterial(scene, makeDiffuseMaterial("Ground", {0.50f, 0.47f, 0.42f})));
+              addMaterial(scene, makeDiffuseMaterial("Ground", {0.36f, 0.33f, 0.29f})));
   addSteps(scene, width);
   addSpheres(scene, columns);
   addBoxes(scene, width);
   // Width and height of the grid in a picture of 16:9.
-  const float distance = 1.15f * static_cast<float>(std::max(columns, 4)) + 0.5f;
-  addCamera(scene, "Camera", {0.0f, 2.3f, distance}, {0.0f, 0.75f, -0.9f}, glm::radians(40.0f), 0.1f);
+  const float distance = 0.85f * static_cast<float>(std::max(columns, 4)) + 0.6f;
+  addCamera(scene, "Camera", {0.0f, 2.3f, distance}, {0.0f, 0.85f, -0.9f}, glm::radians(40.0f), 0.1f);
   addDirectionalLight(scene, "Sun", {0.5f, 0.8f, 0.4f}, glm::vec3(1.8f, 1.7f, 1.5f));
   scene.environment = makeProceduralSky();
   return scene;
