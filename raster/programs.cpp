@@ -6,6 +6,7 @@
 
 #include "raster/shaders/background.frag.h"
 #include "raster/shaders/background.vert.h"
+#include "raster/shaders/compose_layers.frag.h"
 #include "raster/shaders/ids.frag.h"
 #include "raster/shaders/scene.frag.h"
 #include "raster/shaders/scene.vert.h"
@@ -24,8 +25,13 @@ std::string glslOf(const SamplerSettings& s) {
   return fmt::format("vec4({:.1f}, {:.1f}, {:.1f}, {:.1f})", s.wrapU, s.wrapV, s.magFilter, s.minFilter);
 }
 
+std::string coverageDefine(float coverage) {
+  if (coverage == shading::kAlphaMask) return define("ALPHA_MASK");
+  return coverage == shading::kAlphaBlend ? define("ALPHA_BLEND") : "";
+}
+
 std::string definesOf(const SurfaceVariant& variant) {
-  std::string defines = define("SURFACE_KIND", fmt::format("{:.1f}", variant.kind));
+  std::string defines = define("SURFACE_KIND", fmt::format("{:.1f}", variant.kind)) + coverageDefine(variant.coverage);
   if (variant.attributes) defines += define("ATTRIBUTES");
   if (variant.filter == TextureFilter::hardware) defines += define("TEXTURES_HARDWARE");
   for (std::size_t i = 0; i < kTextureDefines.size(); ++i)
@@ -79,8 +85,13 @@ GLuint Programs::background(EnvironmentSource source) {
 GLuint Programs::ids(const SurfaceVariant& variant) {
   SurfaceVariant geometry;
   geometry.attributes = variant.attributes;
+  geometry.coverage = variant.coverage;
   geometry.textures[0] = variant.textures[0];
   return find(shaders::kSceneVert, shaders::kIdsFrag, "ids", definesOf(geometry));
+}
+
+GLuint Programs::composeLayers() {
+  return find(shaders::kBackgroundVert, shaders::kComposeLayersFrag, "compose_layers", "");
 }
 
 GLuint Programs::find(const char* vertexShader, const char* fragmentShader, const std::string& name,

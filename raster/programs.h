@@ -35,6 +35,7 @@ struct SurfaceVariant {
   std::array<std::optional<SamplerSettings>, kMaterialTextures> textures;
   bool attributes = false;  // vertices carry more than position and normal
   TextureFilter filter = TextureFilter::exact;
+  float coverage = shading::kAlphaOpaque;  // shading::kAlpha*
 
   friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
 };
@@ -52,6 +53,7 @@ class Programs {
                                    const std::string& techniqueDefines);
   GLuint background(EnvironmentSource source);
   GLuint ids(const SurfaceVariant& variant);
+  GLuint composeLayers();
 
  private:
   GLuint find(const char* vertexShader, const char* fragmentShader, const std::string& name,

@@ -72,7 +72,7 @@ class ScenePass::Binder {
   const GpuMesh* mesh_ = nullptr;
   int material_ = -1;
   GLenum front_ = GL_NONE;
-  bool culls_ = false;  // as beginPass() leaves it
+  bool culls_ = false;  // as the pass leaves it
 };
 
 ScenePass::ScenePass(RasterDevice::Impl& device, const Technique& technique)
@@ -83,6 +83,7 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   const bool isNewScene = !resources_ || resources_->scene() != snapshot.scene;
   if (isNewScene) resources_ = device_.resourcesOf(snapshot.scene);
   if (isNewScene || !drawsFit(snapshot)) buildDraws(snapshot);
+  resources_->showScreens(snapshot.screens);
   uploadInstances();
   uploadLights();
   uploadPasses(passes);
@@ -94,17 +95,40 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
 void ScenePass::draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
                      FrameCounters& counters) {
   beginPass(pass, target);
-  Binder binder(*this, passes_[pass].view);
+  const std::vector<const Draw*> visible = visibleDraws(pass, hiddenProbe);
+  const auto firstBlended = std::ranges::find_if(visible, [](const Draw* draw) { return draw->isBlended(); });
+  drawSurfaces({visible.begin(), firstBlended}, pass, mapShown);
+  drawBackground();
+  counters.draws += static_cast<std::int64_t>(visible.size()) + 1;
+  counters.triangles += 1;
+  for (const Draw* draw : visible) counters.triangles += draw->mesh->indexCount / 3;
+  if (firstBlended == visible.end()) return;
+  const std::vector<const Draw*> blended(firstBlended, visible.end());
+  layers_->compose(target, [&] { drawSurfaces(blended, pass, mapShown); });
+  ++counters.draws;
+  ++counters.triangles;
+}
+
+// The surfaces that a pass draws, in order.
+std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, int hiddenProbe) const {
+  std::vector<const Draw*> visible;
   for (const Draw& draw : draws_) {
     const int probe = snapshot_->instances[draw.instance].probe;
-    if ((probe != kNoProbe && probe == hiddenProbe) || !isVisible(draw, pass)) continue;
-    const bool showsProbe = draw.showingProbe != 0 && mapShown[static_cast<std::size_t>(probe)];
-    binder.bind(draw, showsProbe ? draw.showingProbe : draw.showingEnvironment);
-    gl_.DrawElements(GL_TRIANGLES, draw.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
-    ++counters.draws;
-    counters.triangles += draw.mesh->indexCount / 3;
+    if ((probe == kNoProbe || probe != hiddenProbe) && isVisible(draw, pass)) visible.push_back(&draw);
   }
-  drawBackground(counters);
+  return visible;
+}
+
+void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass,
+                             const std::vector<bool>& mapShown) const {
+  gl_.Disable(GL_CULL_FACE);
+  Binder binder(*this, passes_[pass].view);
+  for (const Draw* draw : draws) {
+    const int probe = snapshot_->instances[draw->instance].probe;
+    const bool showsProbe = draw->showingProbe != 0 && mapShown[static_cast<std::size_t>(probe)];
+    binder.bind(*draw, showsProbe ? draw->showingProbe : draw->showingEnvironment);
+    gl_.DrawElements(GL_TRIANGLES, draw->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+  }
 }
 
 void ScenePass::drawIds(std::size_t pass, const RenderTarget& target) {
@@ -126,8 +150,8 @@ bool ScenePass::drawsFit(const Snapshot& snapshot) const {
          });
 }
 
-// Sorted by what is dear to change. Nothing here may depend on addresses or GL names: the order decides which of two
-// coinciding surfaces is seen, and how many fragments pass.
+// Blended surfaces last, then sorted by what is dear to change. Nothing here may depend on addresses or GL names: the
+// order decides which of two coinciding surfaces is seen, and how many fragments pass.
 void ScenePass::buildDraws(const Snapshot& snapshot) {
   const std::string settings = techniqueDefines(technique_);
   const EnvironmentSource source = environmentSource(snapshot.scene->environment, technique_.textureFilter);
@@ -146,7 +170,10 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
                       .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, settings) : 0,
                       .cullsBackFaces = cullsBackFaces(snapshot.materialOf(instance))});
   }
-  std::ranges::sort(draws_, {}, [](const Draw& d) { return std::tuple(d.variant, d.material, d.instance); });
+  std::ranges::sort(draws_, {},
+                    [](const Draw& d) { return std::tuple(d.isBlended(), d.variant, d.material, d.instance); });
+  if (!layers_ && !draws_.empty() && draws_.back().isBlended())
+    layers_.emplace(device_.context, device_.programs.composeLayers());
   device_.context.check("uploading a scene's meshes");
 }
 
@@ -186,14 +213,12 @@ bool ScenePass::isVisible(const Draw& draw, std::size_t pass) const {
 }
 
 // Last, where nothing was drawn: no colour needs clearing and hidden sky costs nothing.
-void ScenePass::drawBackground(FrameCounters& counters) const {
+void ScenePass::drawBackground() const {
   gl_.DepthFunc(GL_GEQUAL);
   gl_.Disable(GL_CULL_FACE);
   gl_.UseProgram(background_);
   gl_.BindVertexArray(noVertices_.id());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  ++counters.draws;
-  ++counters.triangles;
 }
 
 }  // namespace pb

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "raster/device.h"
+#include "raster/transparency.h"
 #include "raster/uniform_slots.h"
 
 namespace pb {
@@ -43,6 +45,8 @@ class ScenePass {
     GLuint showingEnvironment;
     GLuint showingProbe;  // 0 for instances without a probe
     bool cullsBackFaces;
+
+    bool isBlended() const { return variant.coverage == shading::kAlphaBlend; }
   };
   class Binder;
 
@@ -53,7 +57,9 @@ class ScenePass {
   void uploadPasses(const std::vector<gpu::PassConstants>& passes);
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const Draw& draw, std::size_t pass) const;
-  void drawBackground(FrameCounters& counters) const;
+  std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe) const;
+  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const std::vector<bool>& mapShown) const;
+  void drawBackground() const;
 
   RasterDevice::Impl& device_;
   const gl::Functions& gl_;
@@ -70,6 +76,7 @@ class ScenePass {
   std::size_t areaLightCount_ = 0;
   gl::Buffer lights_;
   gl::Buffer areaLights_;
+  std::optional<TransparentLayers> layers_;  // of scenes with blended surfaces
 };
 
 }  // namespace pb

@@ -1,6 +1,8 @@
 #include "raster/scene_resources.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <utility>
 
@@ -64,9 +66,24 @@ void describeVertices(const gl::Functions& gl, const GpuMesh& mesh) {
   }
 }
 
-// The material's textures, -1 for none, in the order of the slots in MaterialConstants.
-std::array<int, kMaterialTextures> texturesOf(const Material& m) {
-  return {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture, m.occlusionTexture};
+// The material's textures, -1 for none, in the order of the slots in MaterialConstants. Screens are numbered after the
+// scene's textures.
+std::array<int, kMaterialTextures> texturesOf(const Scene& scene, const Material& m) {
+  const int emission = m.screen < 0 ? m.emissionTexture : static_cast<int>(scene.textures.size()) + m.screen;
+  return {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, emission, m.occlusionTexture};
+}
+
+gl::Texture makeMaterialTexture(const gl::Functions& gl, int width, int height, int levels) {
+  return gl::makeTexture(
+      gl, {.target = GL_TEXTURE_2D, .format = GL_RGBA32F, .width = width, .height = height, .levels = levels});
+}
+
+void uploadLevels(const gl::Texture& texture, const std::vector<ImageRgba>& levels) {
+  for (GLint level = 0; level < static_cast<GLint>(levels.size()); ++level) {
+    const ImageRgba& texels = levels[static_cast<std::size_t>(level)];
+    texture.gl().TextureSubImage2D(texture.id(), level, 0, 0, texels.width(), texels.height(), GL_RGBA, GL_FLOAT,
+                                   texels.data());
+  }
 }
 
 std::array<const shading::TextureSlot*, kMaterialTextures> slotsOf(const Material& m) {
@@ -104,6 +121,7 @@ GpuMesh::GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_)
 SceneResources::SceneResources(gl::Context& context, std::shared_ptr<const Scene> scene)
     : gl_(context.functions()), scene_(std::move(scene)), constants_(context, 1) {
   uploadTextures();
+  makeScreens();
   uploadMaterials(context);
   uploadEnvironment();
   uploadDfgTable();
@@ -119,8 +137,9 @@ SurfaceVariant SceneResources::variantOf(int material, const Mesh& mesh, Texture
   SurfaceVariant variant;
   variant.kind = m.constants.kind.x;
   variant.filter = filter;
+  variant.coverage = m.constants.alpha.x;
   variant.attributes = !mesh.colors.empty();
-  const auto textures = texturesOf(m);
+  const auto textures = texturesOf(*scene_, m);
   const auto slots = slotsOf(m);
   for (std::size_t i = 0; i < textures.size(); ++i) {
     if (textures[i] < 0) continue;
@@ -149,16 +168,28 @@ void SceneResources::bindMaterial(int material) const {
 
 void SceneResources::uploadTextures() {
   for (const Texture& source : scene_->textures) {
-    textures_.push_back(gl::makeTexture(gl_, {.target = GL_TEXTURE_2D,
-                                              .format = GL_RGBA32F,
-                                              .width = source.levels.front().width(),
-                                              .height = source.levels.front().height(),
-                                              .levels = static_cast<int>(source.levels.size())}));
-    for (GLint level = 0; level < static_cast<GLint>(source.levels.size()); ++level) {
-      const ImageRgba& texels = source.levels[static_cast<std::size_t>(level)];
-      gl_.TextureSubImage2D(textures_.back().id(), level, 0, 0, texels.width(), texels.height(), GL_RGBA, GL_FLOAT,
-                            texels.data());
-    }
+    const ImageRgba& level0 = source.levels.front();
+    textures_.push_back(
+        makeMaterialTexture(gl_, level0.width(), level0.height(), static_cast<int>(source.levels.size())));
+    uploadLevels(textures_.back(), source.levels);
+  }
+}
+
+void SceneResources::makeScreens() {
+  for (const Screen& screen : scene_->screens) {
+    const int levels = std::bit_width(static_cast<unsigned>(std::max(screen.widthPx, screen.heightPx)));
+    textures_.push_back(makeMaterialTexture(gl_, screen.widthPx, screen.heightPx, levels));
+  }
+  shownOnScreens_.resize(scene_->screens.size());
+}
+
+// Compared by content: sequences that share a device show the scene at different times.
+void SceneResources::showScreens(const std::vector<Texture>& screens) {
+  for (std::size_t i = 0; i < screens.size(); ++i) {
+    const ImageRgba& level0 = screens[i].levels.front();
+    if (shownOnScreens_[i] == level0) continue;
+    uploadLevels(textures_[scene_->textures.size() + i], screens[i].levels);
+    shownOnScreens_[i] = level0;
   }
 }
 
@@ -167,7 +198,7 @@ void SceneResources::uploadMaterials(gl::Context& context) {
   for (std::size_t m = 0; m < scene_->materials.size(); ++m) {
     const Material& material = scene_->materials[m];
     materials_.set(m, material.constants);
-    const auto textures = texturesOf(material);
+    const auto textures = texturesOf(*scene_, material);
     const auto slots = slotsOf(material);
     std::vector<Binding>& bindings = materialBindings_.emplace_back();
     for (std::size_t i = 0; i < textures.size(); ++i)

@@ -36,6 +36,9 @@ class SceneResources {
 
   SurfaceVariant variantOf(int material, const Mesh& mesh, TextureFilter filter) const;
 
+  // Uploads the pictures of the scene's screens (Snapshot::screens) that are not shown already.
+  void showScreens(const std::vector<Texture>& screens);
+
   // Binds the scene's constants and environment for all draws that follow.
   void bindScene() const;
   // Binds one material's constants, textures and samplers.
@@ -49,6 +52,7 @@ class SceneResources {
   };
 
   void uploadTextures();
+  void makeScreens();
   void uploadMaterials(gl::Context& context);
   void uploadEnvironment();
   void uploadDfgTable();
@@ -57,7 +61,8 @@ class SceneResources {
   const gl::Functions& gl_;
   std::shared_ptr<const Scene> scene_;
   std::map<const Mesh*, GpuMesh> meshes_;
-  std::vector<gl::Texture> textures_;
+  std::vector<gl::Texture> textures_;      // the scene's textures, then its screens
+  std::vector<ImageRgba> shownOnScreens_;  // by screen: level 0 of what is uploaded
   std::map<std::array<float, 4>, gl::Sampler> samplers_;
   std::vector<std::vector<Binding>> materialBindings_;  // by material
   UniformSlots<shading::MaterialConstants> materials_;

@@ -28,6 +28,9 @@ const int kMaterialBlock = 3;
 const int kLightBlock = 0;
 const int kSmoothingGroupBlock = 1;
 const int kAreaLightBlock = 2;
+const int kLayerBlock = 3;
+// Image units.
+const int kLayerHeadImage = 0;
 // Texture units. Those of a material follow kMaterialUnit in the order of the slots in MaterialConstants.
 const int kProbeUnit = 0;
 const int kEnvironmentUnit = 1;

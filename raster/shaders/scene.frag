@@ -1,8 +1,9 @@
 #version 450 core
 // Radiance of a surface towards the viewer.
 //
-// Variants by defines, besides those of the included files: SURFACE_KIND (kSurface*), and PROBE_LOOKUP for specular
-// surfaces that show their probe's cube map instead of the environment.
+// Variants by defines, besides those of the included files: SURFACE_KIND (kSurface*), PROBE_LOOKUP for specular
+// surfaces that show their probe's cube map instead of the environment, ALPHA_MASK for surfaces with holes, and ALPHA_BLEND
+// for those that cover partly and are composed later (layers.glsl).
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
 #include "raster/shaders/surface_fetch.glsl"
@@ -22,7 +23,12 @@ layout(binding = kDfgUnit) uniform sampler2D dfgTable;
 const vec4 kFresnelLaw = FRESNEL_LAW;
 const float kGeometry = GEOMETRY_TERM;
 
+#ifdef ALPHA_BLEND
+#include "raster/shaders/layers.glsl"
+layout(early_fragment_tests) in;  // hidden layers must not be stored
+#else
 layout(location = 0) out vec4 radiance;
+#endif
 
 #ifdef PROBE_LOOKUP
 layout(binding = kProbeUnit) uniform samplerCubeArray probes;
@@ -55,10 +61,18 @@ void main() {
   Fragment fragment = makeFragment();
   Surface s = readSurface(fragment);
   s.kind = SURFACE_KIND;  // what the material says, known to the compiler
+#if defined(ALPHA_MASK) || defined(ALPHA_BLEND)
+  if (s.opacity == 0.0f) discard;
+#endif
   vec2 dfg = vec2(0.0f);
   if (s.kind == kSurfaceGlass || s.kind == kSurfaceGlossy)
     dfg = surfaceDfg(s, dfgTable, max(dot(s.normal, fragment.toViewer), 0.0f));
   vec3 sum = localRadianceOf(s, fragment.toViewer, dfg);
   if (isSpecular(s)) sum += specularRadiance(s, fragment.toViewer, dfg);
-  radiance = vec4(min(sum, vec3(pass.image.z)), 1.0f);
+  sum = min(sum, vec3(pass.image.z));
+#ifdef ALPHA_BLEND
+  addLayer(sum, s.opacity);
+#else
+  radiance = vec4(sum, 1.0f);
+#endif
 }
