@@ -10,8 +10,12 @@ namespace pb {
 std::vector<Check> certifyControl(RasterDevice& device);
 std::vector<Check> certifyCubeFaces(RasterDevice& device);
 std::vector<Check> certifyFacingMirrors(RasterDevice& device);
+std::vector<Check> certifyFresnel(RasterDevice& device);
+std::vector<Check> certifyGlass(RasterDevice& device);
+std::vector<Check> certifyMicrofacets(RasterDevice& device);
 std::vector<Check> certifyMirrorBall(RasterDevice& device);
 std::vector<Check> certifyProbeCentre(RasterDevice& device);
+std::vector<Check> certifyRoughMetal(RasterDevice& device);
 std::vector<Check> certifyWhiteFurnace(RasterDevice& device);
 
 const std::vector<Certificate>& certificates() {
@@ -26,6 +30,13 @@ const std::vector<Certificate>& certificates() {
        certifyFacingMirrors},
       {"mirror ball", "A mirror sphere under a sky that is linear in the direction's height.", certifyMirrorBall},
       {"white furnace", "Perfect mirrors of any shape under a constant environment of 1 show 1.", certifyWhiteFurnace},
+      {"reflectance", "Fresnel's equations at angles with closed forms and in complex arithmetic; sRGB codes.",
+       certifyFresnel},
+      {"microfacets", "Integrals of the GGX lobe, its table, its sampler, against a second spelling.",
+       certifyMicrofacets},
+      {"rough metal", "A rough white metal in a constant environment of 1 shows the lobe's directional albedo.",
+       certifyRoughMetal},
+      {"glass", "Slab, ball, absorbing slab, thin wall and prism: geometrical optics.", certifyGlass},
   };
   return table;
 }

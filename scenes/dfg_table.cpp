@@ -10,20 +10,23 @@
 namespace pb {
 namespace {
 
-// Visible normals on a midpoint grid. Half the steps change no value of the table by more than 3e-4, except below
-// NoV = 0.02 (tests/unit/dfg_table_test.cpp).
+// Visible normals on a midpoint grid. The squares of the steps across put more of them into the lobe's tail, which is
+// thin but loses most of its light: u = 1 - (1 - w)^2. The lobe is symmetric: half of the circle will do.
+// Against a quadrature with 1024 steps either way values err by 9e-4 at NoV = 0.02 and by 5e-4 from 0.1 on; between
+// texels by 4e-3 and 1e-3.
 constexpr int kStepsAround = 16;
-constexpr int kStepsAcross = 32;
+constexpr int kStepsAcross = 64;
 
-float texelCentre(int i) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(kDfgTableSize); }
+// Of the texel, from 0 to 1; a viewer just above the horizon stands for 0.
+float coordinate(int i) { return std::max(static_cast<float>(i) / static_cast<float>(kDfgTableSize - 1), 1e-3f); }
 
 Texture computeTable(float geometry) {
   ImageRgba texels(kDfgTableSize, kDfgTableSize);
   tbb::parallel_for(0, kDfgTableSize, [&](int y) {
-    const float roughness = texelCentre(y);
+    const float roughness = coordinate(y);
     const float alpha = std::max(roughness * roughness, shading::kSmoothAlpha);
     for (int x = 0; x < kDfgTableSize; ++x)
-      texels(x, y) = glm::vec4(computeDfg(texelCentre(x), alpha, geometry), 0.0f, 0.0f);
+      texels(x, y) = glm::vec4(computeDfg(coordinate(x), alpha, geometry), 0.0f, 0.0f);
   });
   return {"dfg", {texels}};
 }
@@ -33,9 +36,10 @@ Texture computeTable(float geometry) {
 glm::vec2 computeDfg(float NoV, float alpha, float geometry) {
   const glm::vec3 toViewer(std::sqrt(std::max(1.0f - NoV * NoV, 0.0f)), 0.0f, NoV);
   glm::dvec2 sum(0.0);
-  for (int j = 0; j < kStepsAcross; ++j)
+  for (int j = 0; j < kStepsAcross; ++j) {
+    const float left = 1.0f - (static_cast<float>(j) + 0.5f) / kStepsAcross;
     for (int i = 0; i < kStepsAround; ++i) {
-      const glm::vec2 u((static_cast<float>(i) + 0.5f) / kStepsAround, (static_cast<float>(j) + 0.5f) / kStepsAcross);
+      const glm::vec2 u(0.5f * (static_cast<float>(i) + 0.5f) / kStepsAround, 1.0f - left * left);
       const glm::vec3 h = shading::sampleVisibleNormal(toViewer, alpha, u);
       const float VoH = glm::dot(toViewer, h);
       const float NoL = 2.0f * VoH * h.z - NoV;
@@ -43,10 +47,11 @@ glm::vec2 computeDfg(float NoV, float alpha, float geometry) {
       // BRDF times cosine over the density of the direction, without Fresnel: G / G1 (Heitz 2014, eq. 2 with Walter et
       // al. 2007, eq. 14 and 20).
       const float weight =
-          shading::geometryTerm(geometry, NoL, NoV, h.z, VoH, alpha) / shading::G1_SmithGGX(NoV, alpha);
+          2.0f * left * shading::geometryTerm(geometry, NoL, NoV, h.z, VoH, alpha) / shading::G1_SmithGGX(NoV, alpha);
       const float rise = shading::pow5(1.0f - std::min(VoH, 1.0f));
       sum += glm::dvec2(weight * (1.0f - rise), weight * rise);
     }
+  }
   return glm::vec2(sum / static_cast<double>(kStepsAround * kStepsAcross));
 }
 

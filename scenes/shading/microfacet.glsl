@@ -90,13 +90,13 @@ PB_FUNC float pdfVisibleNormal(float NoV, float NoH, float VoH, float alpha) {
 }
 
 // What an ideal specular lobe reflects of uniform light, as x F0 + y F90 with Schlick's Fresnel: the directional albedo's
-// split sum (Karis 2013). The table (scenes/dfg_table.h) holds it at the centres of its texels, NoV along x and
-// perceptual roughness along y; linear between them.
+// split sum (Karis 2013). The first and last texels of the table (scenes/dfg_table.h) stand for 0 and 1 of NoV
+// along x and of perceptual roughness along y; linear between texels.
 PB_FUNC vec2 sampleDfg(sampler2D table, float NoV, float roughness) {
   int n = textureSize(table, 0).x;
   float size = float(n);
-  float x = clamp(NoV * size - 0.5f, 0.0f, size - 1.0f);
-  float y = clamp(roughness * size - 0.5f, 0.0f, size - 1.0f);
+  float x = clamp(NoV, 0.0f, 1.0f) * (size - 1.0f);
+  float y = clamp(roughness, 0.0f, 1.0f) * (size - 1.0f);
   int x0 = min(int(x), n - 2);
   int y0 = min(int(y), n - 2);
   float fx = x - float(x0);
