@@ -1,6 +1,7 @@
 // The back faces of one transmitting object from one view: what two-interface refraction reads behind a fragment.
 #pragma once
 
+#include <array>
 #include <map>
 #include <utility>
 
@@ -14,11 +15,26 @@ class BackFaces {
  public:
   explicit BackFaces(gl::Context& context) : context_(context) {}
 
-  // The next draws go to the emptied target of that size and leave the farthest surface.
-  void beginDraws(int widthPx, int heightPx);
+  // As long as it lives, draws go to the target and the farthest surface stays. Then they go where they went before,
+  // and read the target.
+  class Drawing {
+   public:
+    Drawing(const gl::Functions& gl, GLuint framebuffer, GLuint surface);
+    ~Drawing();
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
 
-  // The draws that follow read that target.
-  void bind() const;
+   private:
+    const gl::Functions& gl_;
+    GLuint surface_;
+    GLint framebufferBefore_ = 0, depthFuncBefore_ = 0;
+    GLboolean writesDepthBefore_ = GL_TRUE;
+    std::array<GLboolean, 4> writesColorBefore_{};
+    GLboolean scissorsBefore_ = GL_FALSE;
+  };
+
+  // The emptied target of that size.
+  Drawing beginDraws(int widthPx, int heightPx);
 
  private:
   struct Target {
@@ -30,7 +46,6 @@ class BackFaces {
 
   gl::Context& context_;
   std::map<std::pair<int, int>, Target> targets_;
-  const Target* current_ = nullptr;
 };
 
 }  // namespace pb

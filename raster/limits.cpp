@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "raster/gpu_structs.h"
+#include "raster/prefilter.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -43,10 +44,11 @@ void checkSceneFits(const DeviceLimits& limits, const Scene& scene) {
   checkBytes(limits, kTexelBytes * texels, "the scene's textures");
 }
 
-std::int64_t probeBytes(const Technique& technique, int probes) {
+std::int64_t probeBytes(const Technique& technique, int probes, bool filtered) {
   if (technique.probes == ProbeUse::environmentOnly) return 0;
   const std::int64_t copies = technique.bounceOrder == BounceOrder::simultaneous ? 2 : 1;
-  return copies * 6 * probes * technique.resolution * technique.resolution * kCubeTexelBytes;
+  return copies * 6 * probes * technique.resolution * technique.resolution * kCubeTexelBytes +
+         (filtered ? filteredBytes(technique.filter, technique.resolution, probes) : 0);
 }
 
 void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int samplesPerAxis) {
@@ -65,8 +67,8 @@ void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int s
   checkBytes(limits, imageBytes(widthPx, heightPx, samplesPerAxis), "the image's samples");
 }
 
-void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, int widthPx, int heightPx,
-                    int samplesPerAxis) {
+void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, bool filtered, int widthPx,
+                    int heightPx, int samplesPerAxis) {
   if (technique.probes == ProbeUse::environmentOnly || probes == 0) return;
   if (technique.resolution < 1 || technique.resolution > limits.cubeMapSizePx)
     throwInputError("the device's cube maps have 1 to {} texels along an edge, got resolution {}", limits.cubeMapSizePx,
@@ -75,7 +77,7 @@ void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int 
     throwInputError("the device's array textures have at most {} layers, {} probes want {}", limits.arrayLayers, probes,
                     std::int64_t{6} * probes);
   const std::int64_t depth = kDepthBytes * technique.resolution * technique.resolution;
-  checkBytes(limits, probeBytes(technique, probes) + depth + imageBytes(widthPx, heightPx, samplesPerAxis),
+  checkBytes(limits, probeBytes(technique, probes, filtered) + depth + imageBytes(widthPx, heightPx, samplesPerAxis),
              "the cube maps and the image's samples");
 }
 

@@ -4,10 +4,15 @@
 
 #include <array>
 
+#include "raster/prefilter.h"
+#include "raster/shaders/back_faces.frag.h"
 #include "raster/shaders/background.frag.h"
 #include "raster/shaders/background.vert.h"
 #include "raster/shaders/compose_layers.frag.h"
 #include "raster/shaders/ids.frag.h"
+#include "raster/shaders/prefilter_box.comp.h"
+#include "raster/shaders/prefilter_ggx.comp.h"
+#include "raster/shaders/prefilter_source.comp.h"
 #include "raster/shaders/scene.frag.h"
 #include "raster/shaders/scene.vert.h"
 
@@ -30,8 +35,15 @@ std::string coverageDefine(float coverage) {
   return coverage == shading::kAlphaBlend ? define("ALPHA_BLEND") : "";
 }
 
+std::string lobeDefines(Lobe lobe) {
+  if (lobe == Lobe::smooth) return "";
+  return define("ROUGH_LOBE") + (lobe == Lobe::mixed ? define("SMOOTH_TEXELS") : "");
+}
+
 std::string definesOf(const SurfaceVariant& variant) {
   std::string defines = define("SURFACE_KIND", fmt::format("{:.1f}", variant.kind)) + coverageDefine(variant.coverage);
+  defines += lobeDefines(variant.lobe);
+  if (!variant.reflects) defines += define("NO_REFLECTION");
   if (variant.attributes) defines += define("ATTRIBUTES");
   if (variant.filter == TextureFilter::hardware) defines += define("TEXTURES_HARDWARE");
   for (std::size_t i = 0; i < kTextureDefines.size(); ++i)
@@ -66,6 +78,13 @@ std::string techniqueDefines(const Technique& technique) {
          define("GEOMETRY_TERM", fmt::format("{:.1f}", static_cast<double>(technique.geometryTerm)));
 }
 
+std::string filterDefines(ProbeFilter filter, int resolution) {
+  const int levels = filteredLevels(filter, resolution);
+  if (levels <= 0) return "";
+  if (filter == ProbeFilter::boxMips) return define("FILTER_BOX", fmt::format("{}.0f", resolution));
+  return define("FILTER_GGX", fmt::format("{}.0f", levels));
+}
+
 GLuint Programs::surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines) {
   return find(shaders::kSceneVert, shaders::kSceneFrag, "scene",
               definesOf(variant) + techniqueDefines + define("PROBE_LOOKUP"));
@@ -81,6 +100,19 @@ GLuint Programs::background(EnvironmentSource source) {
   return find(shaders::kBackgroundVert, shaders::kBackgroundFrag, "background", definesOf(source));
 }
 
+GLuint Programs::boxLevel(bool weighsSolidAngles) {
+  return findCompute(shaders::kPrefilterBoxComp, "prefilter_box", weighsSolidAngles ? define("SOLID_ANGLES") : "");
+}
+
+GLuint Programs::ggxLevel(int samples) {
+  return findCompute(shaders::kPrefilterGgxComp, "prefilter_ggx", define("LOBE_SAMPLES", std::to_string(samples)));
+}
+
+GLuint Programs::environmentFaces(EnvironmentSource source, int subtexels) {
+  return findCompute(shaders::kPrefilterSourceComp, "prefilter_source",
+                     definesOf(source) + define("SUBTEXELS", std::to_string(subtexels)));
+}
+
 // Ids follow the exact filter's choice of texels whatever the filter.
 GLuint Programs::ids(const SurfaceVariant& variant) {
   SurfaceVariant geometry;
@@ -94,6 +126,16 @@ GLuint Programs::composeLayers() {
   return find(shaders::kBackgroundVert, shaders::kComposeLayersFrag, "compose_layers", "");
 }
 
+// Of a surface's textures only that of its normals matters behind it.
+GLuint Programs::backFaces(const SurfaceVariant& variant) {
+  constexpr std::size_t kNormalTexture = 2;
+  SurfaceVariant geometry;
+  geometry.attributes = variant.attributes;
+  geometry.filter = variant.filter;
+  geometry.textures[kNormalTexture] = variant.textures[kNormalTexture];
+  return find(shaders::kSceneVert, shaders::kBackFacesFrag, "back_faces", definesOf(geometry));
+}
+
 GLuint Programs::find(const char* vertexShader, const char* fragmentShader, const std::string& name,
                       const std::string& defines) {
   std::unique_ptr<gl::Program>& program = programs_[name + "\n" + defines];
@@ -102,6 +144,15 @@ GLuint Programs::find(const char* vertexShader, const char* fragmentShader, cons
         gl_, std::vector<gl::ShaderSource>{
                  {GL_VERTEX_SHADER, "raster/shaders/" + name + ".vert", withDefines(vertexShader, defines)},
                  {GL_FRAGMENT_SHADER, "raster/shaders/" + name + ".frag", withDefines(fragmentShader, defines)}});
+  return program->id();
+}
+
+GLuint Programs::findCompute(const char* shader, const std::string& name, const std::string& defines) {
+  std::unique_ptr<gl::Program>& program = programs_[name + "\n" + defines];
+  if (!program)
+    program = std::make_unique<gl::Program>(
+        gl_, std::vector<gl::ShaderSource>{
+                 {GL_COMPUTE_SHADER, "raster/shaders/" + name + ".comp", withDefines(shader, defines)}});
   return program->id();
 }
 

@@ -25,6 +25,9 @@ struct SamplerSettings {
   friend auto operator<=>(const SamplerSettings&, const SamplerSettings&) = default;
 };
 
+// How wide the specular lobe is over a material's texels.
+enum class Lobe { smooth, rough, mixed };
+
 // How the environment is read.
 enum class EnvironmentSource { gradient, faces, facesHardware };
 EnvironmentSource environmentSource(const Environment& environment, TextureFilter filter);
@@ -32,6 +35,8 @@ EnvironmentSource environmentSource(const Environment& environment, TextureFilte
 // What the fragments of one draw need: the cheapest variant that does it is chosen.
 struct SurfaceVariant {
   float kind = shading::kSurfaceDiffuse;  // shading::kSurface*
+  Lobe lobe = Lobe::smooth;
+  bool reflects = true;  // its specular lobe looks something up
   std::array<std::optional<SamplerSettings>, kMaterialTextures> textures;
   bool attributes = false;  // vertices carry more than position and normal
   TextureFilter filter = TextureFilter::exact;
@@ -42,6 +47,8 @@ struct SurfaceVariant {
 
 // What the technique sets for the shading of all surfaces.
 std::string techniqueDefines(const Technique& technique);
+// Of the surfaces that look up cube maps of `resolution` texels along an edge with that filter's levels.
+std::string filterDefines(ProbeFilter filter, int resolution);
 
 class Programs {
  public:
@@ -52,12 +59,18 @@ class Programs {
   GLuint surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source,
                                    const std::string& techniqueDefines);
   GLuint background(EnvironmentSource source);
+  // Filters of cube maps (raster/prefilter.h).
+  GLuint boxLevel(bool weighsSolidAngles);
+  GLuint ggxLevel(int samples);
+  GLuint environmentFaces(EnvironmentSource source, int subtexels);
   GLuint ids(const SurfaceVariant& variant);
+  GLuint backFaces(const SurfaceVariant& variant);
   GLuint composeLayers();
 
  private:
   GLuint find(const char* vertexShader, const char* fragmentShader, const std::string& name,
               const std::string& defines);
+  GLuint findCompute(const char* shader, const std::string& name, const std::string& defines);
 
   const gl::Functions& gl_;
   std::map<std::string, std::unique_ptr<gl::Program>> programs_;  // by name and defines

@@ -9,6 +9,7 @@
 #include "raster/final_image.h"
 #include "raster/pass_timer.h"
 #include "raster/probe_maps.h"
+#include "raster/reflection.h"
 #include "raster/refresh/policies.h"
 #include "raster/scene_pass.h"
 #include "scenes/error.h"
@@ -75,7 +76,9 @@ struct RasterSequence::Impl {
   void allocateProbes(const Snapshot& snapshot);
   std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
   std::vector<bool> mapsShownAtFirst(const std::vector<ProbeFace>& due, std::size_t probeCount) const;
-  void iterate(const std::vector<ProbeFace>& due, FrameCounters& counters);
+  bool wantsLevels(const Snapshot& snapshot) const;
+  void iterate(const std::vector<ProbeFace>& due, PassTimer* passTimer, Frame& frame);
+  void updateLevels(PassTimer* passTimer, Frame& frame);
   void capture(const std::vector<ProbeFace>& faces, FrameCounters& counters);
   void publish(const std::vector<ProbeFace>& faces);
   std::vector<std::array<std::int64_t, 6>> faceAges() const;
@@ -90,7 +93,8 @@ struct RasterSequence::Impl {
   std::optional<ProbeMaps> probes;
   std::optional<PassTimer> timer;
   RefreshHistory history;
-  std::vector<bool> mapShown;  // by probe: lookups read its cube map, not the environment
+  std::vector<bool> mapShown;     // by probe: lookups read its cube map, not the environment
+  std::vector<bool> levelsShown;  // by probe: lookups read its filtered levels
 };
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_,
@@ -100,7 +104,7 @@ RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& techniq
   fresnelLaw(technique.fresnel);
   if (technique.bounces < 1) throwInputError("a frame has at least one bounce iteration, got {}", technique.bounces);
   checkImageFits(device.limits, widthPx, heightPx, samplesPerAxis);
-  checkProbesFit(device.limits, technique, 1, widthPx, heightPx, samplesPerAxis);
+  checkProbesFit(device.limits, technique, 1, false, widthPx, heightPx, samplesPerAxis);
   device.context.makeCurrent();
   scenePass.emplace(device, technique);
   image.emplace(device.context, widthPx, heightPx, samplesPerAxis);
@@ -112,14 +116,15 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sn
   const std::vector<ProbeFace> due =
       isDynamic() ? dueFaces(technique.refresh, history, snapshot) : std::vector<ProbeFace>{};
   mapShown = mapsShownAtFirst(due, snapshot.probes.size());
+  levelsShown = probesOfRoughLobes(technique, snapshot);
   scenePass->beginFrame(snapshot, passesOf(snapshot));
   if (probes) probes->bind();
 
   Frame frame;
   FrameCounters& counters = frame.stats.counters;
-  counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()));
-  for (int b = 0; isDynamic() && b < technique.bounces; ++b)
-    frame.times.captureMs.push_back(timed(passTimer, [&] { iterate(due, counters); }));
+  counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()), wantsLevels(snapshot));
+  updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
+  for (int b = 0; isDynamic() && b < technique.bounces; ++b) iterate(due, passTimer, frame);
   frame.times.finalMs =
       timed(passTimer, [&] { scenePass->draw(kFinalPass, image->target(), kNoProbe, mapShown, counters); });
   device.context.check("rendering a frame");
@@ -133,8 +138,16 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
   assert(history.frame == 0 || history.lastCapturedFrame.size() == snapshot.probes.size());
   if (!isDynamic() || probes || snapshot.probes.empty()) return;
   const int count = static_cast<int>(snapshot.probes.size());
-  checkProbesFit(device.limits, technique, count, widthPx, heightPx, samplesPerAxis);
-  probes.emplace(device.context, technique.resolution, count, technique.bounceOrder == BounceOrder::simultaneous);
+  const bool filtered = wantsLevels(snapshot);
+  checkProbesFit(device.limits, technique, count, filtered, widthPx, heightPx, samplesPerAxis);
+  probes.emplace(device.context, device.programs, technique.resolution, count,
+                 technique.bounceOrder == BounceOrder::simultaneous, filtered ? technique.filter : ProbeFilter::none);
+}
+
+// The same for all frames of a sequence: instances keep their materials, and one scene has the same number of probes.
+bool RasterSequence::Impl::wantsLevels(const Snapshot& snapshot) const {
+  const std::vector<bool> looked = probesOfRoughLobes(technique, snapshot);
+  return std::ranges::find(looked, true) != looked.end();
 }
 
 std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {
@@ -159,16 +172,23 @@ std::vector<bool> RasterSequence::Impl::mapsShownAtFirst(const std::vector<Probe
   return shown;
 }
 
-void RasterSequence::Impl::iterate(const std::vector<ProbeFace>& due, FrameCounters& counters) {
-  if (technique.bounceOrder == BounceOrder::simultaneous) {
-    capture(due, counters);
-    publish(due);
-    return;
+// One bounce iteration. The maps that lookups see next are filtered as soon as they are published.
+void RasterSequence::Impl::iterate(const std::vector<ProbeFace>& due, PassTimer* passTimer, Frame& frame) {
+  using Groups = std::vector<std::vector<ProbeFace>>;
+  double& captureMs = frame.times.captureMs.emplace_back(0.0);
+  for (const auto& faces : technique.bounceOrder == BounceOrder::simultaneous ? Groups{due} : byProbe(due)) {
+    captureMs += timed(passTimer, [&] {
+      capture(faces, frame.stats.counters);
+      publish(faces);
+    });
+    updateLevels(passTimer, frame);
   }
-  for (const std::vector<ProbeFace>& faces : byProbe(due)) {
-    capture(faces, counters);
-    publish(faces);
-  }
+}
+
+void RasterSequence::Impl::updateLevels(PassTimer* passTimer, Frame& frame) {
+  if (!probes || !probes->isStale(levelsShown)) return;
+  frame.times.prefilterMs +=
+      timed(passTimer, [&] { frame.stats.counters.texelsFiltered += probes->filter(levelsShown); });
 }
 
 void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, FrameCounters& counters) {
@@ -240,11 +260,11 @@ Grid<SampleId> RasterSequence::renderIds(const Snapshot& snapshot) {
   return result;
 }
 
-std::array<Image, 6> RasterSequence::readProbe(int probe) {
+std::array<Image, 6> RasterSequence::readProbe(int probe, int level) {
   if (!impl_->probes || probe < 0 || static_cast<std::size_t>(probe) >= impl_->mapShown.size())
     throwInputError("the last frame has no cube map of probe {}", probe);
   impl_->device.context.makeCurrent();
-  std::array<Image, 6> faces = impl_->probes->read(probe);
+  std::array<Image, 6> faces = impl_->probes->read(probe, level);
   impl_->device.context.check("reading a cube map");
   return faces;
 }

@@ -29,9 +29,9 @@ struct FrameCounters {
   std::int64_t facesCaptured = 0;  // face renders, all bounce iterations
   std::int64_t draws = 0;
   std::int64_t triangles = 0;
-  std::int64_t fragments = 0;   // samples that passed the depth test; 0 unless counting was asked for
-  std::int64_t probeBytes = 0;  // colour memory of the cube maps
-  std::int64_t texelsFiltered = 0;
+  std::int64_t fragments = 0;       // samples that passed the depth test; 0 unless counting was asked for
+  std::int64_t probeBytes = 0;      // colour memory of the cube maps, of their filtered levels and of the filter
+  std::int64_t texelsFiltered = 0;  // written by the filter of the cube maps, its own copies included
 
   FrameCounters& operator+=(const FrameCounters& other);  // probeBytes: the larger
   friend bool operator==(const FrameCounters&, const FrameCounters&) = default;
@@ -40,6 +40,7 @@ struct FrameCounters {
 // Milliseconds by pass; wall time between glFinish calls on software GL, timer queries on a GPU.
 struct PassTimes {
   std::vector<double> captureMs;  // by bounce iteration
+  double prefilterMs = 0.0;       // all bounce iterations
   double finalMs = 0.0;
 };
 
@@ -93,8 +94,8 @@ class RasterSequence {
   // What each primary sample of the snapshot shows: (width * S) x (height * S), row 0 on top.
   Grid<SampleId> renderIds(const Snapshot& snapshot);
 
-  // The six faces of a probe's cube map as they are now, GL order, row 0 first in memory.
-  std::array<Image, 6> readProbe(int probe);
+  // The six faces of a level of a probe's cube map as they are now, GL order, row 0 first in memory.
+  std::array<Image, 6> readProbe(int probe, int level = 0);
 
   struct Impl;
 

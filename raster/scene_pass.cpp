@@ -1,19 +1,24 @@
 #include "raster/scene_pass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <tuple>
 
 #include "raster/culling.h"
+#include "raster/inward_distance.h"
+#include "raster/refraction.h"
 
 namespace pb {
 namespace {
 
-gpu::InstanceConstants constantsOf(const SnapshotInstance& instance, std::size_t index) {
+gpu::InstanceConstants constantsOf(const SnapshotInstance& instance, std::size_t index, int probe) {
   return {.worldFromObject = instance.worldFromObject,
           .normalMatrix = glm::mat4(instance.normalMatrix),
-          .values = {instance.uvScale, static_cast<float>(std::max(instance.probe, 0)), static_cast<float>(index + 1),
-                     instance.mirrored ? -1.0f : 1.0f}};
+          .values = {instance.uvScale, static_cast<float>(std::max(probe, 0)), static_cast<float>(index + 1),
+                     instance.mirrored ? -1.0f : 1.0f},
+          .volume = {std::cbrt(std::abs(glm::determinant(glm::mat3(instance.worldFromObject)))), 0.0f, 0.0f, 0.0f}};
 }
 
 // Counter-clockwise triangles stay so on their way to the window if s, t and forward are as left-handed as x, y and
@@ -26,6 +31,14 @@ GLenum frontFace(const shading::View& view, bool mirrored) {
 // The reference sees glass from inside, too; elsewhere back faces exist only on double-sided materials.
 bool cullsBackFaces(const Material& material) {
   return !material.doubleSided && material.constants.kind.x != shading::kSurfaceGlass;
+}
+
+// Whether no point of the near plane is inside of the box.
+bool isViewedFromOutside(const Bounds& box, const shading::View& view) {
+  const float reach = view.origin.w * (glm::length(glm::vec3(view.forward)) + glm::length(glm::vec3(view.right)) +
+                                       glm::length(glm::vec3(view.down)));
+  const glm::vec3 origin(view.origin);
+  return glm::distance(glm::clamp(origin, box.lower, box.upper), origin) > reach;
 }
 
 // Replaces the buffer's contents, and the buffer if `count`, the number of values in it, changes.
@@ -43,11 +56,13 @@ class ScenePass::Binder {
  public:
   Binder(const ScenePass& pass, const shading::View& view) : pass_(pass), gl_(pass.gl_), view_(view) {}
 
-  void bind(const Draw& draw, GLuint program) {
+  void bind(const Draw& draw, GLuint program) { bind(draw, program, pass_.facesOf(draw, view_)); }
+
+  void bind(const Draw& draw, GLuint program, Faces faces) {
     if (program != program_) gl_.UseProgram(program_ = program);
     if (draw.mesh != mesh_) bindMesh(draw.mesh);
     if (draw.material != material_) pass_.resources_->bindMaterial(material_ = draw.material);
-    setFacing(draw.cullsBackFaces, frontFace(view_, pass_.snapshot_->instances[draw.instance].mirrored));
+    setFacing(faces, frontFace(view_, pass_.snapshot_->instances[draw.instance].mirrored));
     pass_.instanceSlots_.bind(gpu::kInstanceBlock, draw.instance);
   }
 
@@ -58,11 +73,13 @@ class ScenePass::Binder {
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kSmoothingGroupBlock, mesh->smoothingGroups.id());
   }
 
-  void setFacing(bool culls, GLenum front) {
+  void setFacing(Faces faces, GLenum front) {
     if (front != front_) gl_.FrontFace(front_ = front);
-    if (culls == culls_) return;
-    culls_ = culls;
-    culls ? gl_.Enable(GL_CULL_FACE) : gl_.Disable(GL_CULL_FACE);
+    if (faces == faces_) return;
+    faces_ = faces;
+    if (faces == Faces::both) return gl_.Disable(GL_CULL_FACE);
+    gl_.Enable(GL_CULL_FACE);
+    gl_.CullFace(faces == Faces::front ? GL_BACK : GL_FRONT);
   }
 
   const ScenePass& pass_;
@@ -72,7 +89,7 @@ class ScenePass::Binder {
   const GpuMesh* mesh_ = nullptr;
   int material_ = -1;
   GLenum front_ = GL_NONE;
-  bool culls_ = false;  // as the pass leaves it
+  Faces faces_ = Faces::both;  // as the pass leaves it
 };
 
 ScenePass::ScenePass(RasterDevice::Impl& device, const Technique& technique)
@@ -83,11 +100,15 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   const bool isNewScene = !resources_ || resources_->scene() != snapshot.scene;
   if (isNewScene) resources_ = device_.resourcesOf(snapshot.scene);
   if (isNewScene || !drawsFit(snapshot)) buildDraws(snapshot);
+  reflections_.clear();
+  for (const SnapshotInstance& instance : snapshot.instances)
+    reflections_.push_back(reflectionOf(technique_, snapshot, instance));
   resources_->showScreens(snapshot.screens);
   uploadInstances();
   uploadLights();
   uploadPasses(passes);
   resources_->bindScene();
+  resources_->bindReflection(technique_);
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLightBlock, lights_.id());
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kAreaLightBlock, areaLights_.id());
 }
@@ -97,14 +118,20 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, int hiddenPro
   beginPass(pass, target);
   const std::vector<const Draw*> visible = visibleDraws(pass, hiddenProbe);
   const auto firstBlended = std::ranges::find_if(visible, [](const Draw* draw) { return draw->isBlended(); });
-  drawSurfaces({visible.begin(), firstBlended}, pass, mapShown);
+  drawSurfaces({visible.begin(), firstBlended}, pass, hiddenProbe, mapShown);
   drawBackground();
   counters.draws += static_cast<std::int64_t>(visible.size()) + 1;
   counters.triangles += 1;
-  for (const Draw* draw : visible) counters.triangles += draw->mesh->indexCount / 3;
+  for (const Draw* draw : visible) {
+    counters.triangles += draw->mesh->indexCount / 3;
+    for (const Draw* part : readBehind(*draw, pass)) {
+      ++counters.draws;
+      counters.triangles += part->mesh->indexCount / 3;
+    }
+  }
   if (firstBlended == visible.end()) return;
   const std::vector<const Draw*> blended(firstBlended, visible.end());
-  layers_->compose(target, [&] { drawSurfaces(blended, pass, mapShown); });
+  layers_->compose(target, [&] { drawSurfaces(blended, pass, hiddenProbe, mapShown); });
   ++counters.draws;
   ++counters.triangles;
 }
@@ -114,21 +141,56 @@ std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, in
   std::vector<const Draw*> visible;
   for (const Draw& draw : draws_) {
     const int probe = snapshot_->instances[draw.instance].probe;
-    if ((probe == kNoProbe || probe != hiddenProbe) && isVisible(draw, pass)) visible.push_back(&draw);
+    const bool isHidden = probe != kNoProbe && probe == hiddenProbe && !draw.isCapturedFromInside;
+    if (!isHidden && isVisible(draw, pass)) visible.push_back(&draw);
   }
   return visible;
 }
 
-void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass,
-                             const std::vector<bool>& mapShown) const {
+void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, int hiddenProbe,
+                             const std::vector<bool>& mapShown) {
   gl_.Disable(GL_CULL_FACE);
   Binder binder(*this, passes_[pass].view);
   for (const Draw* draw : draws) {
-    const int probe = snapshot_->instances[draw->instance].probe;
-    const bool showsProbe = draw->showingProbe != 0 && mapShown[static_cast<std::size_t>(probe)];
-    binder.bind(*draw, showsProbe ? draw->showingProbe : draw->showingEnvironment);
+    const int probe = reflections_[draw->instance].probe;
+    // A map may not be read while it is captured: by its owners, captured from inside, nor by what it is nearest to.
+    const bool isCaptured = probe != kNoProbe && probe == hiddenProbe;
+    const bool isOwner = isCaptured && snapshot_->instances[draw->instance].probe == probe;
+    const bool showsProbe = !isCaptured && draw->showingProbe != 0 && mapShown[static_cast<std::size_t>(probe)];
+    if (draw->backFaces != 0) drawBackFaces(*draw, pass, binder);
+    binder.bind(*draw, showsProbe ? draw->showingProbe : draw->showingEnvironment,
+                isOwner ? Faces::back : facesOf(*draw, passes_[pass].view));
     gl_.DrawElements(GL_TRIANGLES, draw->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
   }
+}
+
+// The surfaces whose back faces the draw's fragments read: all of the object that it is a part of, and of nothing else,
+// so that no object sees another's.
+std::vector<const ScenePass::Draw*> ScenePass::readBehind(const Draw& draw, std::size_t pass) const {
+  const std::vector<Instance>& instances = snapshot_->scene->instances;
+  std::vector<const Draw*> parts;
+  if (draw.backFaces == 0) return parts;
+  for (const Draw& part : draws_)
+    if (part.backFaces != 0 && instances[part.instance].node == instances[draw.instance].node && isVisible(part, pass))
+      parts.push_back(&part);
+  return parts;
+}
+
+void ScenePass::drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder) {
+  const glm::vec4& samples = passes_[pass].image;
+  const BackFaces::Drawing drawing = backFaces_->beginDraws(static_cast<int>(samples.x), static_cast<int>(samples.y));
+  for (const Draw* part : readBehind(draw, pass)) {
+    binder.bind(*part, part->backFaces, Faces::back);
+    gl_.DrawElements(GL_TRIANGLES, part->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+// Closed glass is drawn without its back faces as long as they can't be seen.
+ScenePass::Faces ScenePass::facesOf(const Draw& draw, const shading::View& view) const {
+  const bool showsFrontOnly =
+      draw.cullsBackFaces ||
+      (draw.isClosedGlass && isViewedFromOutside(snapshot_->instances[draw.instance].worldBounds, view));
+  return showsFrontOnly ? Faces::front : Faces::both;
 }
 
 void ScenePass::drawIds(std::size_t pass, const RenderTarget& target) {
@@ -153,22 +215,34 @@ bool ScenePass::drawsFit(const Snapshot& snapshot) const {
 // Blended surfaces last, then sorted by what is dear to change. Nothing here may depend on addresses or GL names: the
 // order decides which of two coinciding surfaces is seen, and how many fragments pass.
 void ScenePass::buildDraws(const Snapshot& snapshot) {
+  const int environmentSize = resources_->filterEnvironment(technique_.filter, device_.programs);
   const std::string settings = techniqueDefines(technique_);
+  const std::string environmentLevels = filterDefines(technique_.filter, environmentSize);
+  const std::string probeLevels = filterDefines(technique_.filter, technique_.resolution);
   const EnvironmentSource source = environmentSource(snapshot.scene->environment, technique_.textureFilter);
   background_ = device_.programs.background(source);
   draws_.clear();
   for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
     const SnapshotInstance& instance = snapshot.instances[i];
-    const SurfaceVariant variant = resources_->variantOf(instance.material, *instance.mesh, technique_.textureFilter);
-    const bool hasProbe = technique_.probes == ProbeUse::dynamic && instance.probe >= 0;
-    draws_.push_back({.variant = variant,
-                      .material = instance.material,
-                      .instance = i,
-                      .source = instance.mesh,
-                      .mesh = &resources_->mesh(instance.mesh),
-                      .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source, settings),
-                      .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, settings) : 0,
-                      .cullsBackFaces = cullsBackFaces(snapshot.materialOf(instance))});
+    const Material& material = snapshot.materialOf(instance);
+    const SurfaceVariant variant = variantOf(snapshot, instance);
+    const std::string defines = settings + refractionDefines(technique_, material);
+    const bool hasBackFaces = readsBackFaces(technique_, material);
+    if (hasBackFaces) resources_->addInwardDistances(instance.mesh);
+    const bool hasProbe = reflectionOf(technique_, snapshot, instance).source == ReflectionSource::probe;
+    draws_.push_back(
+        {.variant = variant,
+         .material = instance.material,
+         .instance = i,
+         .source = instance.mesh,
+         .mesh = &resources_->mesh(instance.mesh),
+         .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source, defines + environmentLevels),
+         .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, defines + probeLevels) : 0,
+         .cullsBackFaces = cullsBackFaces(material),
+         .isClosedGlass = isSolidGlass(material) && !material.doubleSided && isClosed(*instance.mesh),
+         .isCapturedFromInside = isCapturedFromInside(technique_, material),
+         .backFaces = hasBackFaces ? device_.programs.backFaces(variant) : 0});
+    if (hasBackFaces && !backFaces_) backFaces_.emplace(device_.context);
   }
   std::ranges::sort(draws_, {},
                     [](const Draw& d) { return std::tuple(d.isBlended(), d.variant, d.material, d.instance); });
@@ -177,11 +251,18 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
   device_.context.check("uploading a scene's meshes");
 }
 
+SurfaceVariant ScenePass::variantOf(const Snapshot& snapshot, const SnapshotInstance& instance) const {
+  SurfaceVariant variant = resources_->variantOf(instance.material, *instance.mesh, technique_.textureFilter);
+  variant.reflects = reflectionOf(technique_, snapshot, instance).source != ReflectionSource::nothing;
+  return variant;
+}
+
 void ScenePass::uploadInstances() {
   const std::vector<SnapshotInstance>& instances = snapshot_->instances;
   if (instanceSlots_.size() != instances.size())
     instanceSlots_ = UniformSlots<gpu::InstanceConstants>(device_.context, instances.size());
-  for (std::size_t i = 0; i < instances.size(); ++i) instanceSlots_.set(i, constantsOf(instances[i], i));
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    instanceSlots_.set(i, constantsOf(instances[i], i, reflections_[i].probe));
   instanceSlots_.upload();
 }
 

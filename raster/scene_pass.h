@@ -5,7 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "raster/back_faces.h"
 #include "raster/device.h"
+#include "raster/reflection.h"
 #include "raster/transparency.h"
 #include "raster/uniform_slots.h"
 
@@ -27,7 +29,8 @@ class ScenePass {
   void beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes);
 
   // The frame's pass number `pass`, without the owners of probe `hiddenProbe` (or kNoProbe). Probes that are marked in
-  // mapShown show their cube maps (bound by the caller to gpu::kProbeUnit), the others the environment.
+  // mapShown show their cube maps (bound by the caller to gpu::kProbeUnit), the others and the hidden one the
+  // environment.
   void draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
             FrameCounters& counters);
 
@@ -43,28 +46,38 @@ class ScenePass {
     std::shared_ptr<const Mesh> source;
     const GpuMesh* mesh;
     GLuint showingEnvironment;
-    GLuint showingProbe;  // 0 for instances without a probe
+    GLuint showingProbe;  // 0 for instances that look no probe's cube map up
     bool cullsBackFaces;
+    bool isClosedGlass;         // its back faces are seen from inside only
+    bool isCapturedFromInside;  // by its own probe
+    GLuint backFaces;           // program that draws what its fragments read; 0 if they read none
 
     bool isBlended() const { return variant.coverage == shading::kAlphaBlend; }
   };
+  enum class Faces { both, front, back };
   class Binder;
 
   void buildDraws(const Snapshot& snapshot);
   bool drawsFit(const Snapshot& snapshot) const;
+  SurfaceVariant variantOf(const Snapshot& snapshot, const SnapshotInstance& instance) const;
   void uploadInstances();
   void uploadLights();
   void uploadPasses(const std::vector<gpu::PassConstants>& passes);
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const Draw& draw, std::size_t pass) const;
   std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe) const;
-  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const std::vector<bool>& mapShown) const;
+  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, int hiddenProbe,
+                    const std::vector<bool>& mapShown);
+  std::vector<const Draw*> readBehind(const Draw& draw, std::size_t pass) const;
+  void drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder);
+  Faces facesOf(const Draw& draw, const shading::View& view) const;
   void drawBackground() const;
 
   RasterDevice::Impl& device_;
   const gl::Functions& gl_;
   Technique technique_;
   std::shared_ptr<SceneResources> resources_;
+  std::vector<Reflection> reflections_;  // by instance
   GLuint background_ = 0;
   gl::VertexArray noVertices_;
   const Snapshot* snapshot_ = nullptr;  // between beginFrame() and the last pass of the frame
@@ -76,6 +89,7 @@ class ScenePass {
   std::size_t areaLightCount_ = 0;
   gl::Buffer lights_;
   gl::Buffer areaLights_;
+  std::optional<BackFaces> backFaces_;       // of scenes whose refraction reads them
   std::optional<TransparentLayers> layers_;  // of scenes with blended surfaces
 };
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "raster/inward_distance.h"
 #include "scenes/dfg_table.h"
 
 namespace pb {
@@ -119,12 +120,11 @@ GpuMesh::GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_)
 }
 
 SceneResources::SceneResources(gl::Context& context, std::shared_ptr<const Scene> scene)
-    : gl_(context.functions()), scene_(std::move(scene)), constants_(context, 1) {
+    : context_(context), gl_(context.functions()), scene_(std::move(scene)), constants_(context, 1) {
   uploadTextures();
   makeScreens();
   uploadMaterials(context);
   uploadEnvironment();
-  uploadDfgTable();
   context.check("uploading a scene's textures");
 }
 
@@ -132,10 +132,24 @@ const GpuMesh& SceneResources::mesh(const std::shared_ptr<const Mesh>& mesh) {
   return meshes_.try_emplace(mesh.get(), gl_, mesh).first->second;
 }
 
+void SceneResources::addInwardDistances(const std::shared_ptr<const Mesh>& mesh) {
+  constexpr GLuint kLocation = 6;  // after kAttributes
+  constexpr GLuint kBinding = 1;
+  GpuMesh& gpuMesh = meshes_.try_emplace(mesh.get(), gl_, mesh).first->second;
+  if (gpuMesh.inwardDistances.id() != 0) return;
+  gpuMesh.inwardDistances = gl::Buffer(gl_, gl::bytesOf(inwardDistances(*mesh)));
+  const GLuint array = gpuMesh.vertexArray.id();
+  gl_.VertexArrayVertexBuffer(array, kBinding, gpuMesh.inwardDistances.id(), 0, sizeof(float));
+  gl_.EnableVertexArrayAttrib(array, kLocation);
+  gl_.VertexArrayAttribFormat(array, kLocation, 1, GL_FLOAT, GL_FALSE, 0);
+  gl_.VertexArrayAttribBinding(array, kLocation, kBinding);
+}
+
 SurfaceVariant SceneResources::variantOf(int material, const Mesh& mesh, TextureFilter filter) const {
   const Material& m = scene_->materials[static_cast<std::size_t>(material)];
   SurfaceVariant variant;
   variant.kind = m.constants.kind.x;
+  if (hasRoughLobe(m)) variant.lobe = m.metallicRoughnessTexture < 0 ? Lobe::rough : Lobe::mixed;
   variant.filter = filter;
   variant.coverage = m.constants.alpha.x;
   variant.attributes = !mesh.colors.empty();
@@ -154,7 +168,6 @@ void SceneResources::bindScene() const {
   constants_.bind(gpu::kSceneBlock, 0);
   gl_.BindTextureUnit(gpu::kEnvironmentUnit, environmentFaces_.id());
   gl_.BindTextureUnit(gpu::kEnvironmentCubeUnit, environmentCube_.id());
-  gl_.BindTextureUnit(gpu::kDfgUnit, dfgTable_.id());
 }
 
 void SceneResources::bindMaterial(int material) const {
@@ -222,11 +235,30 @@ void SceneResources::uploadEnvironment() {
   environmentCube_ = gl::makeCubeView(environmentFaces_, GL_RGBA32F);
 }
 
-void SceneResources::uploadDfgTable() {
-  const ImageRgba& texels = dfgTable(shading::kGeometrySmithCorrelated).levels.front();
-  dfgTable_ = gl::makeTexture(
+int SceneResources::filterEnvironment(ProbeFilter filter, Programs& programs) {
+  if (filter == ProbeFilter::none || std::ranges::none_of(scene_->materials, hasRoughLobe)) return 0;
+  FilteredEnvironment& filtered = filtered_[filter];
+  if (filtered.resolution == 0) {
+    bindScene();
+    filtered = pb::filterEnvironment(context_, programs, scene_->environment, filter);
+  }
+  return filtered.resolution;
+}
+
+void SceneResources::bindReflection(const Technique& technique) {
+  gl_.BindTextureUnit(gpu::kDfgUnit, dfgTableOf(technique.geometryTerm).id());
+  if (const auto found = filtered_.find(technique.filter); found != filtered_.end())
+    gl_.BindTextureUnit(gpu::kEnvironmentLevelsUnit, found->second.cube.id());
+}
+
+const gl::Texture& SceneResources::dfgTableOf(GeometryTerm term) {
+  gl::Texture& table = dfgTables_[static_cast<std::size_t>(term)];
+  if (table.id() != 0) return table;
+  const ImageRgba& texels = dfgTable(static_cast<float>(term)).levels.front();
+  table = gl::makeTexture(
       gl_, {.target = GL_TEXTURE_2D, .format = GL_RGBA32F, .width = texels.width(), .height = texels.height()});
-  gl_.TextureSubImage2D(dfgTable_.id(), 0, 0, 0, texels.width(), texels.height(), GL_RGBA, GL_FLOAT, texels.data());
+  gl_.TextureSubImage2D(table.id(), 0, 0, 0, texels.width(), texels.height(), GL_RGBA, GL_FLOAT, texels.data());
+  return table;
 }
 
 GLuint SceneResources::samplerFor(const glm::vec4& settings) {

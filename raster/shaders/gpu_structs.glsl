@@ -17,6 +17,7 @@ struct InstanceConstants {
   mat4 normalMatrix;  // the upper 3x3
   vec4 values;        // x multiplies the mesh's UV per metre, y cube of its probe, z id (exact up to 2^24), w -1 if the
                       // transform mirrors, else 1
+  vec4 volume;        // x metres in a unit of object space (mean of the directions)
 };
 
 // Uniform blocks.
@@ -24,6 +25,7 @@ const int kPassBlock = 0;
 const int kSceneBlock = 1;
 const int kInstanceBlock = 2;
 const int kMaterialBlock = 3;
+const int kLobeBlock = 4;
 // Shader storage blocks.
 const int kLightBlock = 0;
 const int kSmoothingGroupBlock = 1;
@@ -31,10 +33,14 @@ const int kAreaLightBlock = 2;
 const int kLayerBlock = 3;
 // Image units.
 const int kLayerHeadImage = 0;
+const int kFilterTargetImage = 1;
 // Texture units. Those of a material follow kMaterialUnit in the order of the slots in MaterialConstants.
 const int kProbeUnit = 0;
 const int kEnvironmentUnit = 1;
 const int kEnvironmentCubeUnit = 2;
 const int kDfgUnit = 3;
-const int kMaterialUnit = 4;
-const int kTextureUnits = 9;
+const int kBackFaceUnit = 4;
+const int kEnvironmentLevelsUnit = 5;
+const int kMaterialUnit = 6;
+const int kTextureUnits = 11;
+const int kFilterSourceUnit = kMaterialUnit;  // of the filters of cube maps; draws bind their materials anew

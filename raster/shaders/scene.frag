@@ -30,13 +30,7 @@ layout(early_fragment_tests) in;  // hidden layers must not be stored
 layout(location = 0) out vec4 radiance;
 #endif
 
-#ifdef PROBE_LOOKUP
-layout(binding = kProbeUnit) uniform samplerCubeArray probes;
-vec3 radianceAlong(vec3 d) { return vec3(textureLod(probes, vec4(d, instance.values.y), 0.0f)); }
-#else
-#include "raster/shaders/environment_lookup.glsl"
-vec3 radianceAlong(vec3 d) { return environmentAlong(d); }
-#endif
+#include "raster/shaders/radiance_lookup.glsl"
 
 // Emission, light of the lights and ambient light: the twin of pb::localRadiance() in scenes/snapshot.h.
 vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
@@ -46,8 +40,9 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
   for (int i = 0; i < count; ++i) {
     vec3 fromLight = lightIrradianceOn(lights[i], s.position, s.normal);
     irradiance += fromLight;
-    if (s.kind == kSurfaceGlossy)
-      highlights += fromLight * specularBrdf(s, toViewer, lightDirection(lights[i], s.position), kFresnelLaw, kGeometry);
+#ifdef ROUGH_LOBE
+    highlights += fromLight * specularBrdf(s, toViewer, lightDirection(lights[i], s.position), kFresnelLaw, kGeometry);
+#endif
   }
   count = int(pass.lights.y);
   for (int i = 0; i < count; ++i) irradiance += areaLightIrradiance(areaLights[i], s.position, s.normal);
@@ -68,7 +63,9 @@ void main() {
   if (s.kind == kSurfaceGlass || s.kind == kSurfaceGlossy)
     dfg = surfaceDfg(s, dfgTable, max(dot(s.normal, fragment.toViewer), 0.0f));
   vec3 sum = localRadianceOf(s, fragment.toViewer, dfg);
+#ifndef NO_REFLECTION
   if (isSpecular(s)) sum += specularRadiance(s, fragment.toViewer, dfg);
+#endif
   sum = min(sum, vec3(pass.image.z));
 #ifdef ALPHA_BLEND
   addLayer(sum, s.opacity);

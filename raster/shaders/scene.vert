@@ -16,6 +16,10 @@ layout(location = 3) out vec4 uv;
 layout(location = 4) out vec4 color;
 layout(location = 5) out float uvPerMetre;
 #endif
+#ifdef REFRACTION_TWO_INTERFACE
+layout(location = 6) in float objectInwardDistance;
+layout(location = 6) out float inwardDistance;
+#endif
 
 // Variants must cover the same pixels.
 invariant gl_Position;
@@ -31,6 +35,9 @@ void main() {
   uv = vertexUv;
   color = vertexColor;
   uvPerMetre = vertexUvPerMetre * instance.values.x;
+#endif
+#ifdef REFRACTION_TWO_INTERFACE
+  inwardDistance = objectInwardDistance * length(mat3(m) * objectNormal);
 #endif
   gl_Position = clipFromWorldPosition(pass.view, worldPosition);
 }

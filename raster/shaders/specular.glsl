@@ -1,8 +1,26 @@
-// What a specular surface shows of its surroundings. dfg: of surfaceDfg().
+// What a specular surface shows of its surroundings.
+
+// Reflectance of a rough lobe to uniform light: the split sum (Karis 2013) with the law's values at normal and at grazing
+// incidence. dfg: of surfaceDfg().
+vec3 splitSum(Surface s, vec2 dfg) {
+  if (s.kind == kSurfaceGlass)
+    return vec3(dfg.x * dielectricReflectance(kFresnelLaw, 1.0f, s.ior) + dfg.y * dielectricReflectance(kFresnelLaw, 0.0f, s.ior));
+  return dfg.x * specularReflectance(s, 1.0f, kFresnelLaw) + dfg.y * specularReflectance(s, 0.0f, kFresnelLaw);
+}
+
+// Whether the table holds for the lobe. It has no thin walls, and no interfaces seen from inside.
+bool hasSplitSum(Surface s) {
+  if (s.alpha == 0.0f) return false;
+  return s.kind == kSurfaceGlossy || (s.kind == kSurfaceGlass && !isThinWalled(s) && gl_FrontFacing);
+}
+
 vec3 specularRadiance(Surface s, vec3 toViewer, vec2 dfg) {
   float relativeIor = gl_FrontFacing ? s.ior : 1.0f / s.ior;
   SpecularWeights weights = specularWeights(s, max(dot(s.normal, toViewer), 0.0f), relativeIor, kFresnelLaw);
-  vec3 sum = weights.reflection * radianceAlong(reflectedDirection(-toViewer, s.normal));
+#ifdef FILTERED_LOOKUP
+  if (hasSplitSum(s)) weights.reflection = splitSum(s, dfg);
+#endif
+  vec3 sum = weights.reflection * lobeRadiance(reflectedDirection(-toViewer, s.normal), s.alpha);
   if (s.kind == kSurfaceGlass) sum += refractedRadiance(s, toViewer, weights.refraction);
   return sum;
 }

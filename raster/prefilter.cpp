@@ -1,0 +1,282 @@
+#include "raster/prefilter.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "raster/gpu_structs.h"
+
+namespace pb {
+namespace {
+
+using glm::max;
+using std::clamp;
+using std::log2;
+using std::sqrt;
+#define PB_FUNC [[maybe_unused]] inline
+#include "raster/shaders/gloss_lod.glsl"
+#undef PB_FUNC
+
+constexpr int kSmallestFace =
+    8;                        // texels along an edge of the last level: its lobe, clamped cosine, is 60 degrees wide
+constexpr GLuint kGroup = 8;  // invocations along a work group's edge (raster/shaders/prefilter.glsl)
+
+int levelSize(int resolution, int level) { return std::max(resolution >> level, 1); }
+
+int lastBoxLevel(int resolution) { return std::bit_width(static_cast<unsigned>(resolution)) - 1; }
+
+// The kernel D(NoH) NoL of reflected directions in x = NoH^2, from 1/2 (the horizon) to 1; the solid angle is 4 pi dx.
+// D is alpha^2 / (pi (1 - b x)^2) with b = 1 - alpha^2 (D_GGX), NoL = 2 x - 1; constant factors are left out.
+struct LobeKernel {
+  explicit LobeKernel(double alpha) : b(1.0 - alpha * alpha) {}
+
+  double density(double x) const { return (2.0 * x - 1.0) / ((1.0 - b * x) * (1.0 - b * x)); }
+
+  // Antiderivative of density().
+  double integral(double x) const {
+    if (b < 1e-3) return x * x - x;
+    const double t = 1.0 - b * x;
+    return ((2.0 / b - 1.0) / t + 2.0 / b * std::log(t)) / b;
+  }
+
+  // x below which `share` of the kernel lies, by bisection: integral() rises strictly.
+  double quantile(double share) const {
+    double low = 0.5;
+    double high = 1.0;
+    const double wanted = integral(low) + share * total();
+    while (high - low > 1e-15) {
+      const double middle = 0.5 * (low + high);
+      if (middle == low || middle == high) break;
+      (integral(middle) < wanted ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+  double total() const { return integral(1.0) - integral(0.5); }
+
+  double b;
+};
+
+// Level of a cube map with `resolution` texels along an edge in which a texel at a face's centre, 4 / n^2 steradians,
+// has the given solid angle.
+float solidAngleLod(float solidAngle, int resolution) {
+  const float size = static_cast<float>(resolution);
+  return 0.5f * std::log2(solidAngle * size * size / 4.0f);
+}
+
+// A direction on one face and one on the opposite face are at least this far apart: acos(1/3), between their corners.
+constexpr float kOppositeFaces = 1.2309594f;
+
+// Whether samples with their footprints, two texels of the coarser of the two levels that are read, may reach so far.
+bool reachesOppositeFace(const std::array<glm::vec4, kLobeSamples>& samples, int resolution) {
+  return std::ranges::any_of(samples, [&](const glm::vec4& s) {
+    const float coarsest =
+        std::ceil(std::max(solidAngleLod(s.w, resolution), 0.0f) + 1.5f * std::log2(std::sqrt(3.0f)));
+    const float texel = 2.0f * std::exp2(coarsest) / static_cast<float>(resolution);
+    return std::acos(s.z) + 2.0f * texel > kOppositeFaces;
+  });
+}
+
+FaceSet oppositeOf(int face) { return 1u << (face ^ 1); }
+
+// Faces of a level that depend on the changed ones of level 0: themselves, the neighbours, and the opposite ones if
+// lobes reach there.
+FaceSet affectedFaces(FaceSet changed, bool reachesOpposite) {
+  FaceSet affected = 0;
+  for (int face = 0; face < 6; ++face)
+    if ((changed >> face & 1u) != 0) affected |= reachesOpposite ? kAllFaces : kAllFaces & ~oppositeOf(face);
+  return affected;
+}
+
+// Face numbers, four bits each.
+GLint packed(FaceSet faces) {
+  GLint result = 0;
+  int count = 0;
+  for (int face = 0; face < 6; ++face)
+    if ((faces >> face & 1u) != 0) result |= face << (4 * count++);
+  return result;
+}
+
+gl::Texture makeLayers(const gl::Functions& gl, GLenum format, int resolution, int levels) {
+  return gl::makeTexture(gl, {.target = GL_TEXTURE_2D_ARRAY,
+                              .format = format,
+                              .width = resolution,
+                              .height = resolution,
+                              .layers = 6,
+                              .levels = levels});
+}
+
+// Level `level` of the six faces, from bound textures: one work group covers 8 x 8 texels.
+void dispatchFaces(const gl::Functions& gl, GLuint program, const gl::Texture& target, GLenum format, int level,
+                   const glm::ivec4& job, FaceSet faces) {
+  gl.UseProgram(program);
+  gl.ProgramUniform4i(program, 0, job.x, job.y, job.z, job.w);
+  gl.BindImageTexture(gpu::kFilterTargetImage, target.id(), level, GL_TRUE, 0, GL_WRITE_ONLY, format);
+  const GLuint groups = (static_cast<GLuint>(job.z) + kGroup - 1) / kGroup;
+  gl.DispatchCompute(groups, groups, static_cast<GLuint>(std::popcount(faces)));
+}
+
+constexpr GLbitfield kLevelsAreRead = GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
+
+void bindSource(const gl::Functions& gl, const gl::Texture& source) {
+  gl.BindTextureUnit(gpu::kFilterSourceUnit, source.id());
+  gl.BindSampler(gpu::kFilterSourceUnit, 0);
+}
+
+// Texels that resolve the width at which the glow falls to a half, acos(2^(-1/exponent)) ~ sqrt(2 ln 2 / exponent),
+// with four of them, and a horizon with those of 128.
+int gradientResolution(const shading::Sky& sky) {
+  const auto isGrey = [&](const glm::vec4& c) { return glm::vec3(c) == glm::vec3(sky.horizon); };
+  const bool glows = glm::vec3(sky.glow) != glm::vec3(0.0f);
+  if (!glows && isGrey(sky.zenith) && isGrey(sky.below)) return 2 * kSmallestFace;
+  const double width = glows ? std::sqrt(2.0 * std::log(2.0) / std::max(1.0, double{sky.glow.w})) : 1.0;
+  const double texels = 4.0 * 1.5707963 / width;
+  return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::clamp(texels, 128.0, 512.0))));
+}
+
+constexpr int kLargestFilteredEnvironment = 512;
+constexpr int kGradientSubtexels = 4;  // along an edge: antialiases the horizon
+
+}  // namespace
+
+int filteredLevels(ProbeFilter filter, int resolution) {
+  if (filter == ProbeFilter::none || resolution < 2) return 0;
+  if (filter == ProbeFilter::boxMips) return lastBoxLevel(resolution);
+  return std::min(lastBoxLevel(resolution), std::max(lastBoxLevel(resolution / kSmallestFace), 1));
+}
+
+float levelRoughness(int level, int levels) {
+  return ggxLevelRoughness(static_cast<float>(level), static_cast<float>(levels));
+}
+
+bool hasRoughLobe(const Material& material) {
+  const float kind = material.constants.kind.x;
+  return (kind == shading::kSurfaceGlossy || kind == shading::kSurfaceGlass) &&
+         shading::ggxAlpha(material.constants.factors.y) > 0.0f;  // a texture only makes it smoother
+}
+
+std::int64_t filteredBytes(ProbeFilter filter, int resolution, int cubes) {
+  constexpr std::int64_t kTexelBytes = 8;
+  const auto texels = [&](int first, int last) {
+    std::int64_t sum = 0;
+    for (int level = first; level <= last; ++level)
+      sum += std::int64_t{6} * levelSize(resolution, level) * levelSize(resolution, level);
+    return sum;
+  };
+  const std::int64_t copy = filter == ProbeFilter::ggxPrefiltered ? texels(0, lastBoxLevel(resolution)) : 0;
+  return kTexelBytes * (cubes * texels(1, filteredLevels(filter, resolution)) + copy);
+}
+
+std::array<glm::vec4, kLobeSamples> lobeSamples(float alpha) {
+  constexpr double kGoldenAngle = 2.39996322972865332;  // 2 pi (2 - golden ratio)
+  const LobeKernel kernel(double{alpha});
+  std::array<glm::vec4, kLobeSamples> samples;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    // From the horizon inwards.
+    const double x = kernel.quantile((static_cast<double>(i) + 0.5) / kLobeSamples);
+    const double z = 2.0 * x - 1.0;
+    const double radius = std::sqrt(std::max(1.0 - z * z, 0.0));
+    const double angle = kGoldenAngle * static_cast<double>(i);
+    const double solidAngle = 4.0 * 3.14159265358979 * kernel.total() / (kernel.density(x) * kLobeSamples);
+    samples[i] = glm::vec4(glm::dvec4(radius * std::cos(angle), radius * std::sin(angle), z, solidAngle));
+  }
+  return samples;
+}
+
+CubeFilter::CubeFilter(gl::Context& context, Programs& programs, ProbeFilter filter, GLenum format, int resolution)
+    : gl_(context.functions()),
+      filter_(filter),
+      format_(format),
+      resolution_(resolution),
+      levels_(filteredLevels(filter, resolution)),
+      boxProgram_(programs.boxLevel(filter == ProbeFilter::ggxPrefiltered)) {
+  if (filter_ == ProbeFilter::boxMips) return;
+  ggxProgram_ = programs.ggxLevel(kLobeSamples);
+  const int sourceLevels = lastBoxLevel(resolution) + 1;
+  sourceLayers_ = makeLayers(gl_, format, resolution, sourceLevels);
+  source_ = gl::makeView(sourceLayers_, {GL_TEXTURE_CUBE_MAP, format, sourceLevels, 6});
+  lobes_ = UniformSlots<Lobes>(context, static_cast<std::size_t>(levels_));
+  for (int level = 1; level <= levels_; ++level) {
+    const float roughness = levelRoughness(level, levels_);
+    Lobes lobes{lobeSamples(roughness * roughness)};
+    reachesOpposite_.push_back(reachesOppositeFace(lobes.samples, resolution));
+    for (glm::vec4& sample : lobes.samples) sample.w = solidAngleLod(sample.w, resolution);
+    lobes_.set(static_cast<std::size_t>(level - 1), lobes);
+  }
+  lobes_.upload();
+  context.check("allocating filtered cube maps");
+}
+
+std::int64_t CubeFilter::run(const gl::Texture& layers, int cube, FaceSet changed) {
+  std::int64_t written = 0;
+  const bool isBox = filter_ == ProbeFilter::boxMips;
+  if (isBox) {
+    for (int level = 1; level <= levels_; ++level) {
+      fillBoxLevel(boxProgram_, layers, 6 * cube, level, changed);
+      written += texels(level, changed);
+    }
+    return written;
+  }
+  gl_.CopyImageSubData(layers.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 6 * cube, sourceLayers_.id(), GL_TEXTURE_2D_ARRAY, 0,
+                       0, 0, 0, resolution_, resolution_, 6);
+  for (int level = 1; level <= lastBoxLevel(resolution_); ++level) {
+    fillBoxLevel(boxProgram_, sourceLayers_, 0, level, kAllFaces);
+    written += texels(level, kAllFaces);
+  }
+  for (int level = 1; level <= levels_; ++level) {
+    const FaceSet faces = affectedFaces(changed, reachesOpposite_[static_cast<std::size_t>(level - 1)]);
+    fillGgxLevel(layers, 6 * cube, level, faces);
+    written += texels(level, faces);
+  }
+  gl_.MemoryBarrier(kLevelsAreRead);
+  return written;
+}
+
+void CubeFilter::fillBoxLevel(GLuint program, const gl::Texture& layers, int firstLayer, int level, FaceSet faces) {
+  bindSource(gl_, layers);
+  dispatch(program, layers, firstLayer, level, faces);
+  gl_.MemoryBarrier(kLevelsAreRead);
+}
+
+void CubeFilter::fillGgxLevel(const gl::Texture& layers, int firstLayer, int level, FaceSet faces) {
+  bindSource(gl_, source_);
+  lobes_.bind(gpu::kLobeBlock, static_cast<std::size_t>(level - 1));
+  dispatch(ggxProgram_, layers, firstLayer, level, faces);
+}
+
+void CubeFilter::dispatch(GLuint program, const gl::Texture& layers, int firstLayer, int level, FaceSet faces) {
+  dispatchFaces(gl_, program, layers, format_, level,
+                {firstLayer, packed(faces), levelSize(resolution_, level), level - 1}, faces);
+}
+
+std::int64_t CubeFilter::texels(int level, FaceSet faces) const {
+  return std::int64_t{std::popcount(faces)} * levelSize(resolution_, level) * levelSize(resolution_, level);
+}
+
+int filteredEnvironmentResolution(const Environment& environment) {
+  if (environment.sky.toGlow.w <= 0.5f) return gradientResolution(environment.sky);
+  return std::min(environment.faces.front().width(), kLargestFilteredEnvironment);
+}
+
+// In floats: the sun of a photographed sky exceeds halves.
+FilteredEnvironment filterEnvironment(gl::Context& context, Programs& programs, const Environment& environment,
+                                      ProbeFilter filter) {
+  const gl::Functions& gl = context.functions();
+  FilteredEnvironment result;
+  result.resolution = filteredEnvironmentResolution(environment);
+  const int levels = filteredLevels(filter, result.resolution) + 1;
+  result.layers = makeLayers(gl, GL_RGBA32F, result.resolution, levels);
+  result.cube = gl::makeView(result.layers, {GL_TEXTURE_CUBE_MAP, GL_RGBA32F, levels, 6});
+  context.check("allocating a filtered environment");
+  const bool isGradient = environment.sky.toGlow.w <= 0.5f;
+  const int subtexels =
+      isGradient ? kGradientSubtexels : (environment.faces.front().width() + result.resolution - 1) / result.resolution;
+  const GLuint program = programs.environmentFaces(environmentSource(environment, TextureFilter::exact), subtexels);
+  dispatchFaces(gl, program, result.layers, GL_RGBA32F, 0, {0, packed(kAllFaces), result.resolution, 0}, kAllFaces);
+  gl.MemoryBarrier(kLevelsAreRead);
+  CubeFilter(context, programs, filter, GL_RGBA32F, result.resolution).run(result.layers, 0, kAllFaces);
+  context.check("filtering the environment");
+  return result;
+}
+
+}  // namespace pb

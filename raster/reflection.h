@@ -1,0 +1,25 @@
+// What an instance's specular lobe looks up: pure functions.
+#pragma once
+
+#include <vector>
+
+#include "raster/technique.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+
+enum class ReflectionSource { probe, environment, nothing };
+
+struct Reflection {
+  ReflectionSource source;
+  int probe = -1;  // whose cube map is looked up, once it is captured; the environment until then
+};
+
+// An instance's own probe; without one, coats and gloss see what the technique's `coats` says, mirrors and glass the
+// environment.
+Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance);
+
+// By probe: whether a rough lobe looks its cube map up, so that it wants filtered levels.
+std::vector<bool> probesOfRoughLobes(const Technique& technique, const Snapshot& snapshot);
+
+}  // namespace pb

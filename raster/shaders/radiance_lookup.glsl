@@ -1,0 +1,54 @@
+// Radiance that arrives from a direction: of the surface's cube map if PROBE_LOOKUP, else of the environment.
+//
+// Variants by defines: ROUGH_LOBE for materials whose lobe is wider than a mirror's, with SMOOTH_TEXELS if not everywhere;
+// one of FILTER_GGX (number of levels above level 0) and FILTER_BOX (texels along an edge of level 0) if the cube map is
+// filtered, none for the technique filter = none.
+#include "raster/shaders/gloss_lod.glsl"
+
+#if defined(ROUGH_LOBE) && (defined(FILTER_GGX) || defined(FILTER_BOX))
+#define FILTERED_LOOKUP
+#endif
+
+#ifdef PROBE_LOOKUP
+layout(binding = kProbeUnit) uniform samplerCubeArray probes;
+vec3 radianceAlong(vec3 d) { return vec3(textureLod(probes, vec4(d, instance.values.y), 0.0f)); }
+#else
+#include "raster/shaders/environment_lookup.glsl"
+vec3 radianceAlong(vec3 d) { return environmentAlong(d); }
+#endif
+
+#ifdef FILTERED_LOOKUP
+#ifdef PROBE_LOOKUP
+vec3 radianceOfLevel(vec3 d, float lod) { return vec3(textureLod(probes, vec4(d, instance.values.y), lod)); }
+#else
+layout(binding = kEnvironmentLevelsUnit) uniform samplerCube environmentLevels;
+vec3 radianceOfLevel(vec3 d, float lod) { return vec3(textureLod(environmentLevels, d, lod)); }
+#endif
+
+float lobeLod(float alpha) {
+#ifdef FILTER_BOX
+  return boxLod(alpha, FILTER_BOX);
+#else
+  return ggxLod(sqrt(alpha), FILTER_GGX);
+#endif
+}
+#endif
+
+// Mean radiance over a lobe of that alpha around d, as the technique's filter has it; smooth lobes see one direction.
+vec3 lobeRadiance(vec3 d, float alpha) {
+#ifdef FILTERED_LOOKUP
+#ifdef SMOOTH_TEXELS
+  if (alpha == 0.0f) return radianceAlong(d);
+#endif
+  return radianceOfLevel(d, lobeLod(alpha));
+#else
+  return radianceAlong(d);
+#endif
+}
+
+// GGX alpha of a lobe around the reflected direction that is as wide as the transmitted one. A microfacet tilted by a
+// small angle turns what it reflects by 2 angles, and what passes both interfaces of a volume (ior - 1) angles at each,
+// independently. A thin wall's lobe is the reflected one mirrored (KHR_materials_transmission).
+float transmittedAlpha(float alpha, float ior, bool thinWalled) {
+  return thinWalled ? alpha : min(0.70710678f * abs(ior - 1.0f) * alpha, 1.0f);
+}
