@@ -28,7 +28,7 @@ double meanOf(const std::vector<double>& values) {
 }
 
 double totalMs(const PassTimes& passes) {
-  return std::accumulate(passes.captureMs.begin(), passes.captureMs.end(), passes.finalMs);
+  return std::accumulate(passes.captureMs.begin(), passes.captureMs.end(), passes.prefilterMs + passes.finalMs);
 }
 
 // One technique on one scene over all repetitions.
@@ -120,13 +120,15 @@ class Measurement {
   void addPassTimes(CostResult& cost) {
     const std::size_t block = snapshots_.size() - 1;
     std::vector<std::vector<double>> captureMs(static_cast<std::size_t>(bounces_));
-    std::vector<double> finalMs;
+    std::vector<double> prefilterMs, finalMs;
     for (std::size_t frames = 0; frames < kPassFrames; frames += block) {
       const PassTimes mean = measurePasses();
       for (std::size_t b = 0; b < captureMs.size(); ++b) captureMs[b].push_back(mean.captureMs[b]);
+      prefilterMs.push_back(mean.prefilterMs);
       finalMs.push_back(mean.finalMs);
     }
     for (std::vector<double>& iteration : captureMs) cost.captureMs.push_back(median(iteration));
+    cost.prefilterMs = median(prefilterMs);
     cost.finalMs = median(finalMs);
   }
 
@@ -136,6 +138,7 @@ class Measurement {
     for (std::size_t i = 1; i < snapshots_.size(); ++i) {
       const PassTimes passes = sequence_.renderFrameTimed(*snapshots_[i]);
       for (std::size_t b = 0; b < passes.captureMs.size(); ++b) mean.captureMs[b] += passes.captureMs[b] / frameCount();
+      mean.prefilterMs += passes.prefilterMs / frameCount();
       mean.finalMs += passes.finalMs / frameCount();
     }
     return mean;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/material_errors.h"
 #include "bench/metrics/metrics.h"
 #include "bench/tolerance.h"
 
@@ -48,6 +49,7 @@ struct CostResult {
   double plainMs = 0;                                   // plain frame, same scene and size, interleaved
   double ratio = 0, ratioLow = 0, ratioHigh = 0;        // frame / plain, median of the repetitions' own ratios
   std::vector<double> captureMs;                        // by bounce iteration, instrumented run
+  double prefilterMs = 0;                               // all bounce iterations, instrumented run
   double finalMs = 0;                                   // instrumented run
   double rendersPerFrame = 0;                           // cost model: 1 + B * scheduled faces, mean over the frames
   double measuredRendersPerFrame = 0;                   // 1 + faces captured, mean over the same frames
@@ -67,6 +69,7 @@ struct CellResult {
   // FrameCounters of this frame: "faces_captured", "draws", "triangles", "fragments", "probe_bytes", "texels_filtered".
   std::vector<std::pair<std::string, std::int64_t>> counters;
   std::vector<double> faceAgeFrames;  // mean age of the faces of each probe
+  std::vector<MaterialError> materials;
 
   // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in baselines and --only.
   std::string key() const;

@@ -89,6 +89,7 @@ Json costToJson(const std::optional<CostResult>& cost) {
   json["repetitions"] = cost->repetitions;
   for (const auto& field : kCostNumbers) json[field.key] = (*cost).*field.member;
   json["capture_ms"] = cost->captureMs;
+  json["prefilter_ms"] = cost->prefilterMs;
   json["renders_formula"] = cost->rendersFormula;
   return json;
 }
@@ -99,8 +100,35 @@ std::optional<CostResult> costFromJson(const Json& json) {
   cost.repetitions = json.at("repetitions").get<int>();
   for (const auto& field : kCostNumbers) cost.*field.member = json.at(field.key).get<double>();
   cost.captureMs = json.at("capture_ms").get<std::vector<double>>();
+  cost.prefilterMs = json.value("prefilter_ms", 0.0);  // older results have none
   cost.rendersFormula = json.at("renders_formula").get<std::string>();
   return cost;
+}
+
+constexpr Field<MaterialError, double> kMaterialNumbers[] = {
+    {"mse", &MaterialError::mse},          {"relmse", &MaterialError::relmse}, {"bias", &MaterialError::bias},
+    {"flip_hdr", &MaterialError::flipHdr}, {"share", &MaterialError::share},
+};
+
+Json materialsToJson(const std::vector<MaterialError>& materials) {
+  Json json = Json::array();
+  for (const MaterialError& error : materials) {
+    Json entry = {{"material", error.material}, {"pixels", error.pixels}};
+    for (const auto& field : kMaterialNumbers) entry[field.key] = encodeNumber(error.*field.member);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::vector<MaterialError> materialsFromJson(const Json& json) {
+  std::vector<MaterialError> materials;
+  for (const Json& entry : json) {
+    MaterialError& error = materials.emplace_back();
+    error.material = entry.at("material").get<std::string>();
+    error.pixels = entry.at("pixels").get<std::int64_t>();
+    for (const auto& field : kMaterialNumbers) error.*field.member = decodeNumber(entry.at(field.key));
+  }
+  return materials;
 }
 
 CellResult cellFromJson(const Json& json) {
@@ -117,6 +145,9 @@ CellResult cellFromJson(const Json& json) {
   cell.cost = costFromJson(json.at("cost"));
   cell.counters = countersFromJson(json.at("counters"));
   cell.faceAgeFrames = json.at("face_age_frames").get<std::vector<double>>();
+  // Files from before they were recorded don't have them.
+  if (const auto materials = json.find("materials"); materials != json.end())
+    cell.materials = materialsFromJson(*materials);
   return cell;
 }
 
@@ -186,6 +217,7 @@ Json cellToJson(const CellResult& cell) {
   json["cost"] = costToJson(cell.cost);
   json["counters"] = countersToJson(cell.counters);
   json["face_age_frames"] = cell.faceAgeFrames;
+  json["materials"] = materialsToJson(cell.materials);
   return json;
 }
 

@@ -59,6 +59,7 @@ TEST(Results, JsonRoundTrip_KeepsEveryMember) {
   EXPECT_EQ(a.faceAgeFrames, b.faceAgeFrames);
   EXPECT_EQ(a.cost->ratioHigh, b.cost->ratioHigh);
   EXPECT_EQ(a.cost->captureMs, b.cost->captureMs);
+  EXPECT_EQ(a.cost->prefilterMs, b.cost->prefilterMs);
   EXPECT_EQ(a.cost->rendersFormula, b.cost->rendersFormula);
   const CellResult& bare = after.cells.back();
   EXPECT_FALSE(bare.maskMetrics || bare.cost || bare.metrics.ssim || bare.metrics.msSsim || bare.metrics.flipHdr);

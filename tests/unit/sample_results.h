@@ -34,6 +34,7 @@ inline CostResult makeCost(double ratio) {
   cost.ratioLow = 0.98 * ratio;
   cost.ratioHigh = 1.02 * ratio;
   cost.captureMs = {0.5, 0.25};
+  cost.prefilterMs = 0.125;
   cost.finalMs = 3.5;
   cost.rendersPerFrame = 13;
   cost.measuredRendersPerFrame = 13;
