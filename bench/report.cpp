@@ -127,6 +127,34 @@ Table costTable(const Section& section) {
        costQuantity("final ms", [](const CostResult& cost) { return formatSignificant(cost.finalMs); })});
 }
 
+// The technique of smallest error, by the metric and region of the tables above.
+const Sequence& bestOf(const Section& section) {
+  return *std::ranges::min_element(section.sequences, [&](const Sequence& a, const Sequence& b) {
+    return meanError(a, section.region, kMainMetric) < meanError(b, section.region, kMainMetric);
+  });
+}
+
+// The last frame's, largest share first.
+Table materialTable(const Sequence& sequence) {
+  std::vector<MaterialError> materials = sequence.back()->materials;
+  std::ranges::stable_sort(materials, std::greater(), &MaterialError::share);
+  Table table{{{"material", Align::left}, {"pixels"}, {"share of squared error"}, {"FLIP-HDR"}, {"relMSE"}, {"bias"}},
+              {}};
+  for (const MaterialError& e : materials)
+    table.rows.push_back({e.material, fmt::format("{}", e.pixels), fmt::format("{:.1f} %", 100.0 * e.share),
+                          formatSignificant(e.flipHdr), formatSignificant(e.relmse), formatSignificant(e.bias)});
+  return table;
+}
+
+std::string materialText(const Section& section) {
+  const Sequence& best = bestOf(section);
+  if (best.back()->materials.empty()) return {};
+  std::string technique;
+  for (const Axis& axis : section.axes) technique += fmt::format(", {}={}", axis.name, axisValue(best, axis.name));
+  return fmt::format("### Errors by material\n\nframe {}, technique of the smallest error{}\n\n{}\n",
+                     best.back()->frame, technique, toMarkdown(materialTable(best)));
+}
+
 Table workTable(const Section& section) {
   const auto counter = [](const char* title, const char* name) {
     return Quantity{{title}, [=](const Sequence& sequence) { return counterText(sequence, name); }};
@@ -249,6 +277,7 @@ std::string sectionText(const Section& section) {
   if (!section.fixed.empty()) text += fmt::format("; {}", fmt::join(section.fixed, ", "));
   text += "\n\n" + questionsText(section);
   text += "### All errors\n\n" + toMarkdown(errorTable(section)) + '\n';
+  text += materialText(section);
   if (hasCost(section)) text += "### All costs\n\n" + toMarkdown(costTable(section)) + '\n';
   text += "### Work per frame\n\n" + toMarkdown(workTable(section)) + '\n';
   return text;

@@ -82,6 +82,11 @@ void appendCell(const CellResult& cell, const std::vector<std::string>& axes, st
     const Json& values = json.at(region.jsonKey);
     if (!values.is_null()) appendRows(fmt::format("{}{},", prefix, region.name), region.metric, values, csv);
   }
+  for (Json entry : json.at("materials")) {
+    const std::string region = csvField("material " + entry.at("material").get<std::string>());
+    entry.erase("material");
+    appendRows(fmt::format("{}{},", prefix, region), "", entry, csv);
+  }
 }
 
 // relMSE of the reference's floor.

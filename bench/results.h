@@ -110,7 +110,7 @@ std::string toJson(const CellResult& cell);
 CellResult cellFromJson(const std::string& text, const std::string& place);
 
 // One tidy row per cell and value: scene,camera,frame,<axes>,region,metric,value (region: whole, mask, floor,
-// mask_floor, unbiased, cost, counter). Undefined values are empty, infinity is "inf".
+// mask_floor, unbiased, cost, counter, material NAME). Undefined values are empty, infinity is "inf".
 std::string toCsv(const Results& results);
 
 }  // namespace pb

@@ -187,6 +187,8 @@ class Runner {
     cell.unbiased = {{"mse", computeUnbiasedMse(image, truth.halfA, truth.halfB)}};
     cell.counters = namedCounters(stats.counters);
     cell.faceAgeFrames = meanAges(stats.faceAgeFrames);
+    cell.materials =
+        computeMaterialErrors(*truth.snapshot->scene, truth.materials, truth.mean, image, scores.flipHdrMap);
     if (frame == sequence.frames.back()) writeImages(sequence, frame, image, scores.flipHdrMap);
     c_.directory.append(cell);
     const std::lock_guard lock(mutex_);

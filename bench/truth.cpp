@@ -35,13 +35,15 @@ std::shared_ptr<const Truth> TruthMaker::make(std::shared_ptr<const Snapshot> sn
   const ReferenceImage image = obtainQuietEnough(snapshot, scene, warnings);
   const Image mean = image.mean();
   const Image halfA = image.half(0);
-  Mask mask = makeMask(*snapshot, scene);
+  const Grid<SampleId> ids = scene.renderIds(snapshot->camera, image_.widthPx, image_.heightPx, image_.samplesPerAxis);
+  Mask mask = makeMask(*snapshot, ids);
   MetricValues maskFloor;
   if (!mask.empty()) maskFloor = computeFloor(mean, halfA, &mask);
   const MetricsSettings display{.exposure = exposure, .clampForDisplay = true};
+  Grid<int> materials = materialMap(*snapshot, ids, image_.samplesPerAxis);
   return std::make_shared<const Truth>(Truth{std::move(snapshot), halfA, image.half(1), mean, noiseOf(image),
-                                             std::move(mask), computeFloor(mean, halfA), std::move(maskFloor),
-                                             MetricsReference(mean, display)});
+                                             std::move(materials), std::move(mask), computeFloor(mean, halfA),
+                                             std::move(maskFloor), MetricsReference(mean, display)});
 }
 
 ReferenceImage TruthMaker::obtain(const ReferenceRequest& request, const ReferenceScene& scene,
@@ -71,12 +73,11 @@ ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapsho
   return image;
 }
 
-Mask TruthMaker::makeMask(const Snapshot& snapshot, const ReferenceScene& scene) const {
+Mask TruthMaker::makeMask(const Snapshot& snapshot, const Grid<SampleId>& referenceIds) const {
   const std::vector<unsigned char> instances = specularInstances(snapshot);
   Mask mask(image_.widthPx, image_.heightPx);
   addPixelsOf(instances, rasterIds_(snapshot), image_.samplesPerAxis, mask);
-  addPixelsOf(instances, scene.renderIds(snapshot.camera, image_.widthPx, image_.heightPx, image_.samplesPerAxis),
-              image_.samplesPerAxis, mask);
+  addPixelsOf(instances, referenceIds, image_.samplesPerAxis, mask);
   return anyInside(mask) ? mask : Mask();
 }
 

@@ -17,6 +17,7 @@ struct Truth {
   std::shared_ptr<const Snapshot> snapshot;
   Image halfA, halfB, mean;
   double noise = 0;               // relMSE of the floor
+  Grid<int> materials;            // see materialMap()
   Mask mask;                      // specular-dominant objects; empty if there are none in sight
   MetricValues floor, maskFloor;  // "mse" and "relmse" of the mean's own noise
   MetricsReference metrics;       // scores images against `mean`
@@ -47,7 +48,7 @@ class TruthMaker {
                         std::vector<std::string>& warnings) const;
   ReferenceImage obtainQuietEnough(const std::shared_ptr<const Snapshot>& snapshot, const ReferenceScene& scene,
                                    std::vector<std::string>& warnings) const;
-  Mask makeMask(const Snapshot& snapshot, const ReferenceScene& scene) const;
+  Mask makeMask(const Snapshot& snapshot, const Grid<SampleId>& referenceIds) const;
 
   const ReferenceStore& store_;
   ImageSettings image_;
