@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "scenes/closed_mesh.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
@@ -122,9 +123,10 @@ class SceneBuilder {
   std::shared_ptr<const Mesh> meshOf(std::size_t mesh, std::size_t primitive, const Material& material) {
     json data = document_.json["meshes"][mesh]["primitives"][primitive];
     data.erase("material");
-    const bool needsTangents = material.normalTexture >= 0;
-    const auto [found, isNew] = meshes_.try_emplace({std::move(data), needsTangents});
-    if (isNew) found->second = gltf::readPrimitive(document_, mesh, primitive, needsTangents, scene_.warnings);
+    std::optional<int> tangentUvSet;
+    if (material.normalTexture >= 0) tangentUvSet = static_cast<int>(material.constants.normalSlot.offset.z);
+    const auto [found, isNew] = meshes_.try_emplace({std::move(data), tangentUvSet});
+    if (isNew) found->second = gltf::readPrimitive(document_, mesh, primitive, tangentUvSet, scene_.warnings);
     return found->second;
   }
 
@@ -161,7 +163,8 @@ class SceneBuilder {
   const tinygltf::Model& model_;
   Scene scene_;
   std::vector<int> sceneNodes_;  // index in scene_ of each of the file's nodes, -1 for those that are not in the scene
-  std::map<std::pair<json, bool>, std::shared_ptr<const Mesh>> meshes_;  // by data and need of tangents
+  // By data and the texture coordinates that tangents are wanted for.
+  std::map<std::pair<json, std::optional<int>>, std::shared_ptr<const Mesh>> meshes_;
 };
 
 Scene buildScene(const std::string& path, const std::string& bytes, const std::optional<Environment>& environment) {
@@ -169,6 +172,7 @@ Scene buildScene(const std::string& path, const std::string& bytes, const std::o
   Scene scene = SceneBuilder(document).build(environment);
   scene.name = std::filesystem::path(path).stem().string();
   finishScene(scene);
+  warnOfOpenGlass(scene);
   return scene;
 }
 

@@ -10,6 +10,7 @@
 
 #include "scenes/error.h"
 #include "scenes/scene.h"
+#include "scenes/tangents.h"
 
 namespace pb {
 namespace {
@@ -89,35 +90,6 @@ void normaliseNormals(Mesh& mesh) {
   }
 }
 
-// Tangents from texture coordinates, area-weighted over the adjacent triangles: Lengyel, "Computing Tangent Space Basis
-// Vectors for an Arbitrary Mesh" (2001). Without texture coordinates any vector across the normal.
-void computeTangents(Mesh& mesh) {
-  std::vector<glm::dvec3> tangents(mesh.positions.size(), glm::dvec3(0.0));
-  std::vector<glm::dvec3> bitangents(mesh.positions.size(), glm::dvec3(0.0));
-  const std::vector<glm::vec2>& uv = mesh.uvs[0];
-  for (std::size_t t = 0; !uv.empty() && t < mesh.triangleCount(); ++t) {
-    const std::uint32_t* i = &mesh.indices[3 * t];
-    const glm::dvec3 e1 = mesh.positions[i[1]] - mesh.positions[i[0]];
-    const glm::dvec3 e2 = mesh.positions[i[2]] - mesh.positions[i[0]];
-    const glm::dvec2 d1 = uv[i[1]] - uv[i[0]];
-    const glm::dvec2 d2 = uv[i[2]] - uv[i[0]];
-    // The determinant's size weights by UV area; its sign is the handedness of the triangle.
-    const double sign = d1.x * d2.y - d2.x * d1.y < 0.0 ? -1.0 : 1.0;
-    for (int k = 0; k < 3; ++k) {
-      tangents[i[k]] += sign * (e1 * d2.y - e2 * d1.y);
-      bitangents[i[k]] += sign * (e2 * d1.x - e1 * d2.x);
-    }
-  }
-  mesh.tangents.resize(mesh.positions.size());
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const glm::dvec3 n = mesh.normals[v];
-    glm::dvec3 t = tangents[v] - n * glm::dot(n, tangents[v]);
-    if (glm::length(t) < 1e-20) t = glm::cross(n, std::abs(n.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
-    t = glm::normalize(t);
-    mesh.tangents[v] = glm::vec4(glm::vec3(t), glm::dot(glm::cross(n, t), bitangents[v]) < 0.0 ? -1.0f : 1.0f);
-  }
-}
-
 void computeUvPerMetre(Mesh& mesh) {
   mesh.uvPerMetre.assign(mesh.positions.size(), 0.0f);
   const std::vector<glm::vec2>& uv = mesh.uvs[0].empty() ? mesh.uvs[1] : mesh.uvs[0];
@@ -193,12 +165,12 @@ std::uint64_t hashOf(const Mesh& mesh) {
 
 }  // namespace
 
-std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents) {
+std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents, int tangentUvSet) {
   checkInput(mesh);
   dropTrianglesWithoutArea(mesh);
   if (mesh.normals.empty()) computeFlatNormals(mesh);
   normaliseNormals(mesh);
-  if (needsTangents && mesh.tangents.empty()) computeTangents(mesh);
+  if (needsTangents && mesh.tangents.empty()) computeTangents(mesh, tangentUvSet);
   computeUvPerMetre(mesh);
   computeSmoothingGroups(mesh);
   for (const std::uint32_t index : mesh.indices) mesh.bounds.include(mesh.positions[index]);

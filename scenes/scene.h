@@ -65,9 +65,10 @@ struct Mesh {
 };
 
 // Completes a mesh: computes flat normals where there are none (splitting vertices), tangents if `needsTangents` and
-// there are none, and the derived members. Drops triangles without area. Throws an input Error naming the mesh for NaN
-// or infinite positions, and for indices out of range.
-std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents = false);
+// there are none (from the texture coordinates of the given set, splitting vertices), and the derived members. Drops
+// triangles without area. Throws an input Error naming the mesh for NaN or infinite positions, and for indices out of
+// range.
+std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents = false, int tangentUvSet = 0);
 
 // Perceptual roughness below which a metal counts as specular-dominant.
 inline constexpr float kSmoothRoughness = 0.3f;

@@ -8,6 +8,7 @@
 #include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/image_io.h"
+#include "scenes/screen.h"
 #include "scenes/spec.h"
 
 namespace pb::gltf {
@@ -171,15 +172,75 @@ bool readShadows(const json& value, const std::string& place) {
   return value == "traced";
 }
 
+constexpr std::array kScreenProgramNames = {"melt", "twist", "ripples", "rings"};  // in the order of kScreen*
+
+float screenProgram(const json& value, const std::string& place) {
+  const std::vector<std::string> known(kScreenProgramNames.begin(), kScreenProgramNames.end());
+  if (!value.is_string()) throwInputError("{} wants a string, got {}", place, value.dump());
+  const auto found = std::ranges::find(known, value.get<std::string>());
+  if (found == known.end()) throwInputError("{} {}", place, unknownMessage(value.get<std::string>(), known));
+  return static_cast<float>(found - known.begin());
+}
+
+int pixelCount(const json& value, const std::string& place) {
+  if (!value.is_number_integer()) throwInputError("{} wants whole numbers of pixels, got {}", place, value.dump());
+  return static_cast<int>(number(value, place, 1.0, 1024.0));
+}
+
+Screen readScreen(const json& value, const std::string& place, std::vector<std::string>& warnings) {
+  Screen screen;
+  screen.program = screenProgram(member(value, "program", place), place + "/program");
+  warnOfUnknownMembers(value, "", place, {"name", "program", "size", "periodSeconds", "phase"}, warnings);
+  screen.name = value.value("name", kScreenProgramNames.at(static_cast<std::size_t>(screen.program)));
+  if (value.contains("size")) {
+    const json& size = value["size"];
+    if (!size.is_array() || size.size() != 2)
+      throwInputError("{}/size wants width and height in pixels, got {}", place, size.dump());
+    screen.widthPx = pixelCount(size[0], place + "/size");
+    screen.heightPx = pixelCount(size[1], place + "/size");
+  }
+  const auto numberAt = [&](const char* key, double minimum, float otherwise) {
+    return static_cast<float>(number(value.value(key, json(otherwise)), place + "/" + key, minimum, 1e6));
+  };
+  screen.periodSeconds = numberAt("periodSeconds", 1e-3, screen.periodSeconds);
+  screen.phase = numberAt("phase", -1e6, screen.phase);
+  return screen;
+}
+
+std::vector<Screen> readScreens(const json& values, const std::string& place, std::vector<std::string>& warnings) {
+  if (!values.is_array()) throwInputError("{} wants an array, got {}", place, values.dump());
+  std::vector<Screen> screens;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    screens.push_back(readScreen(values[i], fmt::format("{}/{}", place, i), warnings));
+  return screens;
+}
+
+json toJson(const Screen& screen) {
+  return {{"name", screen.name},
+          {"program", kScreenProgramNames.at(static_cast<std::size_t>(screen.program))},
+          {"size", {screen.widthPx, screen.heightPx}},
+          {"periodSeconds", screen.periodSeconds},
+          {"phase", screen.phase}};
+}
+
+// Materials are read before the screens.
+void checkScreensOfMaterials(const Scene& scene) {
+  for (const Material& material : scene.materials)
+    if (material.screen >= static_cast<int>(scene.screens.size()))
+      throwInputError("material '{}' wants screen {} of extras.probebench/screens, the scene has {}", material.name,
+                      material.screen, scene.screens.size());
+}
+
 // Returns whether there is an environment among them.
 bool readOwnExtras(const Document& document, const json& own, Scene& scene) {
   const std::string place = "extras.probebench";
   const json& schema = member(own, "schema", place);
   if (schema != 1) throwInputError("{} wants schema 1, got {}", place, schema.dump());
-  warnOfUnknownMembers(own, "", place, {"schema", "environment", "shadows", "probeNear", "framesPerSecond"},
+  warnOfUnknownMembers(own, "", place, {"schema", "environment", "screens", "shadows", "probeNear", "framesPerSecond"},
                        scene.warnings);
   if (own.contains("environment"))
     scene.environment = readEnvironment(document, own["environment"], place + "/environment", scene.warnings);
+  if (own.contains("screens")) scene.screens = readScreens(own["screens"], place + "/screens", scene.warnings);
   if (own.contains("shadows")) scene.castsShadows = readShadows(own["shadows"], place + "/shadows");
   if (own.contains("probeNear"))
     scene.probeNear = static_cast<float>(number(own["probeNear"], place + "/probeNear", 1e-6, kLargest));
@@ -212,9 +273,11 @@ bool readCubeCameraExtras(const json& extras, Scene& scene) {
 }  // namespace
 
 bool readSceneExtras(const Document& document, const json& extras, Scene& scene) {
-  if (!extras.is_object()) return false;
-  bool hasEnvironment = readCubeCameraExtras(extras, scene);
-  if (extras.contains("probebench")) hasEnvironment |= readOwnExtras(document, extras["probebench"], scene);
+  bool hasEnvironment = false;
+  if (extras.is_object()) hasEnvironment = readCubeCameraExtras(extras, scene);
+  if (extras.is_object() && extras.contains("probebench"))
+    hasEnvironment |= readOwnExtras(document, extras["probebench"], scene);
+  checkScreensOfMaterials(scene);
   return hasEnvironment;
 }
 
@@ -240,7 +303,13 @@ void readMaterialExtras(const json& extras, const std::string& owner, Material& 
   if (!extras.is_object() || !extras.contains("probebench")) return;
   const json& own = extras["probebench"];
   if (!own.is_object()) throwInputError("{} wants an object, got {}", place, own.dump());
-  warnOfUnknownMembers(own, owner + ": ", place, {"eta", "k"}, warnings);
+  warnOfUnknownMembers(own, owner + ": ", place, {"eta", "k", "screen"}, warnings);
+  if (own.contains("screen")) {
+    if (!own["screen"].is_number_unsigned() || own["screen"] > 1000000)
+      throwInputError("{}/screen wants the index of a screen, got {}", place, own["screen"].dump());
+    showScreen(material, own["screen"], glm::vec3(material.constants.emission));
+    material.emissionTexture = -1;
+  }
   if (!own.contains("eta") && !own.contains("k")) return;
   // Published values of metals are 0.03 to 8 and 0 to 14 (refractiveindex.info, visible light); with eta = k = 0 the
   // Fresnel equations are undefined.
@@ -254,8 +323,11 @@ void readMaterialExtras(const json& extras, const std::string& owner, Material& 
 
 json materialExtras(const Material& material) {
   json own;
-  if (material.constants.conductorEta.w > 0.5f)
-    own = {{"eta", toJson(material.constants.conductorEta)}, {"k", toJson(material.constants.conductorK)}};
+  if (material.constants.conductorEta.w > 0.5f) {
+    own["eta"] = toJson(material.constants.conductorEta);
+    own["k"] = toJson(material.constants.conductorK);
+  }
+  if (material.screen >= 0) own["screen"] = material.screen;
   return own.is_null() ? json() : json{{"probebench", own}};
 }
 
@@ -266,11 +338,12 @@ json sceneExtras(const Scene& scene, const AddBufferView& addBufferView) {
     for (const ImageRgba& face : source.faces) environment["faces"].push_back(addBufferView(encodeExr(rgbOf(face))));
   else
     environment["sky"] = toJson(source.sky);
-  const json own = {{"schema", 1},
-                    {"environment", environment},
-                    {"shadows", scene.castsShadows ? "traced" : "none"},
-                    {"probeNear", scene.probeNear},
-                    {"framesPerSecond", scene.framesPerSecond}};
+  json own = {{"schema", 1},
+              {"environment", environment},
+              {"shadows", scene.castsShadows ? "traced" : "none"},
+              {"probeNear", scene.probeNear},
+              {"framesPerSecond", scene.framesPerSecond}};
+  for (const Screen& screen : scene.screens) own["screens"].push_back(toJson(screen));
   return {{"probebench", own}};
 }
 

@@ -1,7 +1,7 @@
-// What glTF can't say. Written to and read from scenes[].extras.probebench (sky, ambient light, shadows, near plane of
-// probes, frame rate), materials[].extras.probebench (a metal's index of refraction) and nodes[].extras.probe; their
-// JSON Schema is results/schema/scene-extras.schema.json. Also read are the extras of two other benchmarks' scenes:
-// ambientRadiance, sky, skyRadiance, cubeCamera.near.
+// What glTF can't say. Written to and read from scenes[].extras.probebench (sky, ambient light, screens, shadows, near
+// plane of probes, frame rate), materials[].extras.probebench (a metal's index of refraction, the screen that it shows)
+// and nodes[].extras.probe; their JSON Schema is results/schema/scene-extras.schema.json. Also read are the extras of
+// two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, cubeCamera.near.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 namespace pb::gltf {
 
 // Sets what the extras of a glTF scene say; returns whether that included an environment. extras.probebench has the
-// last word.
+// last word. Wants the scene's materials, whose screens are checked.
 bool readSceneExtras(const Document& document, const nlohmann::json& extras, Scene& scene);
 
 // nodes[].extras.probe: true, false or {"enabled": ..., "position": [x, y, z]}. Warnings about other members name the

@@ -108,7 +108,7 @@ Mesh toMesh(const RawPrimitive& raw, int mode, std::string name) {
 }  // namespace
 
 std::shared_ptr<const Mesh> readPrimitive(const Document& document, std::size_t meshIndex, std::size_t primitiveIndex,
-                                          bool needsTangents, std::vector<std::string>& warnings) {
+                                          std::optional<int> tangentUvSet, std::vector<std::string>& warnings) {
   const tinygltf::Mesh& mesh = document.model.meshes.at(meshIndex);
   const tinygltf::Primitive& primitive = mesh.primitives.at(primitiveIndex);
   const std::string place = placeOf(mesh, meshIndex, primitiveIndex);
@@ -121,7 +121,7 @@ std::shared_ptr<const Mesh> readPrimitive(const Document& document, std::size_t 
     const RawPrimitive raw =
         readRaw(document, primitive, document.json["meshes"][meshIndex]["primitives"][primitiveIndex]);
     const std::string name = mesh.name.empty() ? fmt::format("mesh {}", meshIndex) : mesh.name;
-    return finishMesh(toMesh(raw, primitive.mode, name), needsTangents);
+    return finishMesh(toMesh(raw, primitive.mode, name), tangentUvSet.has_value(), tangentUvSet.value_or(0));
   });
   if (result->triangleCount() > 0) return result;
   warnings.push_back(place + ": no triangle has an area");

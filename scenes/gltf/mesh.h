@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@
 namespace pb::gltf {
 
 // Triangles, strips and fans become triangle lists. nullptr, with a warning, for what can't be drawn: points, lines,
-// primitives without positions or without area.
+// primitives without positions or without area. Tangents are computed where `tangentUvSet` names texture coordinates
+// and the file has none.
 std::shared_ptr<const Mesh> readPrimitive(const Document& document, std::size_t mesh, std::size_t primitive,
-                                          bool needsTangents, std::vector<std::string>& warnings);
+                                          std::optional<int> tangentUvSet, std::vector<std::string>& warnings);
 
 }  // namespace pb::gltf
