@@ -64,6 +64,7 @@ DeviceHandle makeDevice() {
 struct Facing {
   bool mirrored;       // the transform turns counter-clockwise triangles into clockwise ones
   bool backFacesSeen;  // double-sided or glass
+  bool opaque;         // by the material's alpha mode
 };
 
 // Embree's normal is (v1 - v0) x (v2 - v0), which points outwards unless the transform mirrors.
@@ -79,6 +80,7 @@ using QueryContext = RTCIntersectContext;
 
 struct Query : QueryContext {
   const HiddenInstances* hidden;
+  bool metTransparent = false;
 };
 
 // Decides about each candidate by itself, so that the order in which Embree finds them doesn't matter.
@@ -94,6 +96,14 @@ void rejectUnseen(const RTCFilterFunctionNArguments* args) {
   if ((*query.hidden)[instance] != 0 || !seen) args->valid[0] = 0;
 }
 
+// As rejectUnseen(), and goes on behind surfaces that may be transparent.
+void rejectTransparent(const RTCFilterFunctionNArguments* args) {
+  rejectUnseen(args);
+  if (args->valid[0] == 0 || static_cast<const Facing*>(args->geometryUserPtr)->opaque) return;
+  static_cast<Query*>(args->context)->metTransparent = true;
+  args->valid[0] = 0;
+}
+
 void intersectNearest(RTCScene scene, Query& query, RTCRayHit& rayHit) {
 #if RTC_VERSION_MAJOR >= 4
   rtcInitRayQueryContext(&query);
@@ -107,17 +117,37 @@ void intersectNearest(RTCScene scene, Query& query, RTCRayHit& rayHit) {
 #endif
 }
 
+// Embree writes -infinity to tfar if something is hit.
+void findOccluder(RTCScene scene, Query& query, RTCRay& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcInitRayQueryContext(&query);
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &query;
+  rtcOccluded1(scene, &ray, &arguments);
+#else
+  rtcInitIntersectContext(&query);
+  rtcOccluded1(scene, &query, &ray);
+#endif
+}
+
+RTCRay makeRay(const Ray& ray, float tFar) {
+  RTCRay r{};
+  r.org_x = ray.origin.x;
+  r.org_y = ray.origin.y;
+  r.org_z = ray.origin.z;
+  r.dir_x = ray.direction.x;
+  r.dir_y = ray.direction.y;
+  r.dir_z = ray.direction.z;
+  r.tnear = ray.tNear;
+  r.tfar = tFar;
+  r.mask = ~0u;
+  return r;
+}
+
 RTCRayHit makeRayHit(const Ray& ray) {
   RTCRayHit r{};
-  r.ray.org_x = ray.origin.x;
-  r.ray.org_y = ray.origin.y;
-  r.ray.org_z = ray.origin.z;
-  r.ray.dir_x = ray.direction.x;
-  r.ray.dir_y = ray.direction.y;
-  r.ray.dir_z = ray.direction.z;
-  r.ray.tnear = ray.tNear;
-  r.ray.tfar = std::numeric_limits<float>::infinity();
-  r.ray.mask = ~0u;
+  r.ray = makeRay(ray, std::numeric_limits<float>::infinity());
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   return r;
@@ -155,7 +185,9 @@ struct EmbreeScene::Impl {
     const Material& material = snapshot.materialOf(instance);
     const Mesh& mesh = *instance.mesh;
     const bool glass = material.constants.kind.x == shading::kSurfaceGlass;
-    facings.push_back({instance.mirrored, material.doubleSided || glass});
+    facings.push_back({.mirrored = instance.mirrored,
+                       .backFacesSeen = material.doubleSided || glass,
+                       .opaque = material.constants.alpha.x == shading::kAlphaOpaque});
     positions.push_back(worldPositions(instance));
     if (mesh.indices.empty()) return;
 
@@ -167,6 +199,7 @@ struct EmbreeScene::Impl {
                                3 * sizeof(std::uint32_t), mesh.triangleCount());
     rtcSetGeometryUserData(geometry.get(), &facings.back());
     rtcSetGeometryIntersectFilterFunction(geometry.get(), rejectUnseen);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), rejectTransparent);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(scene.get(), geometry.get(), index);
     throwOnError(device.get(), "attaching a mesh");
@@ -197,6 +230,16 @@ std::optional<Hit> EmbreeScene::intersect(const Ray& ray, const HiddenInstances&
              .barycentrics = {r.hit.u, r.hit.v},
              .geometricNormal = glm::dot(normal, ray.direction) < 0.0f ? normal : -normal,
              .entering = comesFromOutside(impl_->facings[r.hit.geomID], ray.direction, normal)};
+}
+
+Occlusion EmbreeScene::occlusion(const Ray& ray, float tFar, const HiddenInstances& hidden) const {
+  assert(hidden.size() == impl_->facings.size());
+  Query query;
+  query.hidden = &hidden;
+  RTCRay r = makeRay(ray, tFar);
+  findOccluder(impl_->scene.get(), query, r);
+  if (r.tfar < 0.0f) return Occlusion::full;
+  return query.metTransparent ? Occlusion::transparent : Occlusion::none;
 }
 
 std::array<glm::vec3, 3> EmbreeScene::triangle(int instance, std::uint32_t index) const {

@@ -33,6 +33,13 @@ struct Hit {
 // One flag an instance, non-zero: no ray meets it.
 using HiddenInstances = std::vector<unsigned char>;
 
+// What stands in a ray's way.
+enum class Occlusion {
+  none,
+  transparent,  // surfaces whose material isn't opaque, and nothing else
+  full
+};
+
 class EmbreeScene {
  public:
   // Throws an environment Error if Embree can't build the acceleration structure. The snapshot must outlive this
@@ -45,6 +52,9 @@ class EmbreeScene {
   // The nearest hit beyond tNear. Triangles seen from behind count only where the material is double-sided or glass,
   // as the raster culls the others. Called from any thread.
   std::optional<Hit> intersect(const Ray& ray, const HiddenInstances& hidden) const;
+
+  // Whether something is hit between tNear and tFar, under the same rules. Called from any thread.
+  Occlusion occlusion(const Ray& ray, float tFar, const HiddenInstances& hidden) const;
 
   // World positions of the triangle's vertices.
   std::array<glm::vec3, 3> triangle(int instance, std::uint32_t index) const;

@@ -61,6 +61,10 @@ SurfaceAttributes interpolate(const TracedScene& scene, const Hit& hit, const gl
   return a;
 }
 
+shading::Surface surfaceAt(const TracedScene& scene, const Hit& hit, const glm::vec3& d, float coneWidth) {
+  return readSurface(scene.snapshot, scene.materialOf(hit), interpolate(scene, hit, d, coneWidth));
+}
+
 glm::vec3 offsetOrigin(const TracedScene& scene, const Hit& hit, const glm::vec3& position,
                        const glm::vec3& direction) {
   // Interpolating a position takes five roundings of numbers as large as the largest coordinate of a vertex, and so

@@ -9,13 +9,18 @@
 
 namespace pb {
 
+class LightSampler;
+
 // The snapshot and its triangles, less the hidden instances.
 struct TracedScene {
   const Snapshot& snapshot;
   const EmbreeScene& embree;
   HiddenInstances hidden;
+  const LightSampler* lights = nullptr;  // none: light is only found by chance
 
   std::optional<Hit> intersect(const Ray& ray) const { return embree.intersect(ray, hidden); }
+  Occlusion occlusion(const Ray& ray, float tFar) const { return embree.occlusion(ray, tFar, hidden); }
+  bool isHidden(int instance) const { return instance >= 0 && hidden[static_cast<std::size_t>(instance)] != 0; }
   const SnapshotInstance& instanceOf(const Hit& hit) const {
     return snapshot.instances[static_cast<std::size_t>(hit.instance)];
   }
@@ -26,6 +31,9 @@ struct TracedScene {
 // turned to the side from which the ray comes: the triangle's side, not the normal's own, so that a smooth normal that
 // leans away at a silhouette isn't turned.
 SurfaceAttributes interpolate(const TracedScene& scene, const Hit& hit, const glm::vec3& d, float coneWidth);
+
+// The surface at the hit of a ray in unit direction d: its attributes interpolated, its textures read.
+shading::Surface surfaceAt(const TracedScene& scene, const Hit& hit, const glm::vec3& d, float coneWidth);
 
 // The point from which a ray in `direction` goes on, off the triangle by more than the rounding of `position` and of
 // the next intersection, so that neither this triangle nor a neighbour in its plane is met again. Which side it is on
