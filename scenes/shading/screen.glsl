@@ -9,7 +9,7 @@ const float kScreenRipples = 2.0f;  // a ball over rippling water
 const float kScreenRings = 3.0f;    // rings that glow where rays need many steps
 const float kScreenPrograms = 4.0f;
 
-const int kScreenSteps = 48;
+const int kScreenSteps = 64;
 const int kScreenShadowSteps = 20;
 const float kScreenFar = 12.0f;
 const float kScreenHit = 1e-3f;
@@ -36,15 +36,16 @@ PB_FUNC float smoothUnion(float a, float b, float blend) {
 
 PB_FUNC float subtraction(float body, float cutter) { return max(body, -cutter); }
 
-// Turns p around +Y by an angle that grows with height. Distances behind it must be divided by the map's largest stretch,
-// sqrt(1 + (radiansPerUnit radius)^2) or less.
+// Turns p around +Y by an angle that grows with height: a shear by s = radiansPerUnit times the distance r to the axis.
+// Distances behind it must be divided by its stretch L = s / 2 + sqrt(1 + s^2 / 4) on the way to the body; the L of r0 is
+// enough for larger r, too, if from r0 on (r - inner) / L < r - outer, for a body between two cylinders (or two spheres).
 PB_FUNC vec3 twisted(vec3 p, float radiansPerUnit) {
   float c = cos(radiansPerUnit * p.y);
   float s = sin(radiansPerUnit * p.y);
   return vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
 }
 
-// Height of rings that run outwards on water; its slope stays below 0.3.
+// Height of rings that run outwards on water; its slope stays below 0.315.
 PB_FUNC float rippleHeight(vec3 p, float turn) {
   float radius = sqrt(p.x * p.x + p.z * p.z);
   return 0.05f * sin(6.0f * radius - 2.0f * turn) / (1.0f + 0.3f * radius);
@@ -61,27 +62,27 @@ PB_FUNC float meltDistance(vec3 p, float turn) {
 
 PB_FUNC float twistDistance(vec3 p, float turn) {
   vec3 q = twisted(p, 1.2f * sin(turn));
-  // Its corners are 0.78 from the axis: stretched at most sqrt(1 + 0.94^2) = 1.37 times.
-  float block = boxDistance(q, vec3(0.55f, 0.9f, 0.55f)) / 1.37f;
+  // Inner radius 0.55, outer 0.78: r0 = 1.07.
+  float block = boxDistance(q, vec3(0.55f, 0.9f, 0.55f)) / 1.83f;
   vec3 hole = vec3(0.5f * cos(turn), 0.5f * sin(turn), 0.5f);
   return min(subtraction(block, sphereDistance(p - hole, 0.5f)), p.y + 0.95f);
 }
 
 PB_FUNC float ripplesDistance(vec3 p, float turn) {
-  // 1.05 is the length of a normal (slope, 1, slope) with slope 0.3.
+  // 1.05 is the length of the vector (slope, 1).
   float water = (p.y + 0.6f - rippleHeight(p, turn)) / 1.05f;
   return min(water, sphereDistance(p - vec3(0.0f, 0.25f + 0.2f * sin(turn), 0.0f), 0.5f));
 }
 
 PB_FUNC float ringsDistance(vec3 p, float turn) {
-  vec3 q = twisted(p, 0.6f * sin(turn));
+  vec3 q = twisted(p, 0.4f * sin(turn));
   float c = cos(turn);
   float s = sin(turn);
   vec3 r = vec3(q.x, c * q.y - s * q.z, s * q.y + c * q.z);
   float outer = torusDistance(q, 1.05f, 0.08f);
   float inner = torusDistance(r, 0.7f, 0.07f);
-  // 1.15 from the axis: stretched at most sqrt(1 + 0.69^2) = 1.22 times.
-  return min(smoothUnion(outer, inner, 0.25f), sphereDistance(r, 0.2f)) / 1.22f;
+  // Inner radius 0.2, outer 1.14: r0 = 2.6.
+  return min(smoothUnion(outer, inner, 0.25f), sphereDistance(r, 0.2f)) / 1.65f;
 }
 
 PB_FUNC float screenDistance(float program, vec3 p, float turn) {
