@@ -38,7 +38,7 @@ Texture makeBricks() {
   return makeTexture("bricks", std::move(texels));
 }
 
-// Normals of a field of round bumps, encoded to [0,1].
+// Normals of a field of round bumps, encoded to [0,1]; their y points up in the picture, against v.
 Texture makeBumps() {
   constexpr int kSize = 64;
   constexpr float kHeight = 0.35f;
@@ -48,7 +48,7 @@ Texture makeBumps() {
       const float u = 2.0f * glm::two_pi<float>() * (static_cast<float>(x) + 0.5f) / kSize;
       const float v = 2.0f * glm::two_pi<float>() * (static_cast<float>(y) + 0.5f) / kSize;
       const glm::vec3 n =
-          glm::normalize(glm::vec3(-kHeight * std::cos(u) * std::sin(v), -kHeight * std::sin(u) * std::cos(v), 1.0f));
+          glm::normalize(glm::vec3(-kHeight * std::cos(u) * std::sin(v), kHeight * std::sin(u) * std::cos(v), 1.0f));
       texels(x, y) = glm::vec4(0.5f * n + 0.5f, 1.0f);
     }
   return makeTexture("bumps", std::move(texels));

@@ -21,7 +21,8 @@ void appendGridIndices(Mesh& mesh, std::uint32_t first, int columns, int rows, b
 void appendQuad(Mesh& mesh, glm::vec3 p, glm::vec3 u, glm::vec3 v) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const glm::vec3 normal = glm::normalize(glm::cross(u, v));
-  const glm::vec4 tangent(glm::normalize(u), 1.0f);
+  // The bitangent points up in pictures, against v (glTF 2.0, 3.9.3).
+  const glm::vec4 tangent(glm::normalize(u), -1.0f);
   for (const glm::vec2& st : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
     mesh.positions.push_back(p + st.x * u + st.y * v);
     mesh.normals.push_back(normal);

@@ -278,7 +278,7 @@ TEST(GltfMaterial, ConductorExtras_AreItsIndexOfRefraction) {
   file.json["materials"][0]["extras"]["probebench"]["kappa"] = 1;
   EXPECT_THAT(file.load().warnings,
               ElementsAre("material 0: a member of extras.probebench is ignored: 'kappa' is not known; known are "
-                          "'eta', 'k'",
+                          "'eta', 'k', 'screen'",
                           "material 0: its eta and k are those of a metal, but its metallic factor is 0"));
 }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -130,12 +131,14 @@ TEST(Tangents, WhereNothingDefinesThem_AreUnitVectorsAcrossTheNormal) {
   Mesh constant = makeUprightSquare(), without = makeUprightSquare();
   constant.uvs[0].assign(4, glm::vec2(0.5f));
   without.uvs[0].clear();
-  for (const Mesh& source : {constant, without})
-    for (const glm::vec4& t : finishMesh(source, true)->tangents) {
+  for (const Mesh& source : {constant, without}) {
+    const auto mesh = finishMesh(source, true);
+    for (const glm::vec4& t : mesh->tangents) {
       EXPECT_NEAR(glm::length(glm::vec3(t)), 1.0f, 1e-6f);
       EXPECT_NEAR(t.z, 0.0f, 1e-6f);
       EXPECT_EQ(std::abs(t.w), 1.0f);
     }
+  }
 }
 
 TEST(Tangents, OfATestMesh_AreThoseOfMikkelsensCode) {
@@ -162,7 +165,8 @@ TEST(Tangents, OfATestMesh_AreThoseOfMikkelsensCode) {
   EXPECT_GE(compared, 190);
 }
 
-// FlightHelmet brings tangents for each of its normal-mapped meshes.
+// FlightHelmet brings tangents for each of its normal-mapped meshes: in sign ours, in direction nearly so. (They are
+// not MikkTSpace's to the last digit: on the same triangles Blender's differ from the file's as ours do.)
 TEST(RealAssets, TangentsOfFlightHelmet_AreThoseOfTheFile) {
   const std::string path = PROBEBENCH_SOURCE_DIR "/../shared/assets/gltf/FlightHelmet/FlightHelmet.gltf";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not on this machine";
@@ -172,14 +176,15 @@ TEST(RealAssets, TangentsOfFlightHelmet_AreThoseOfTheFile) {
     ASSERT_FALSE(file.tangents.empty());
     Mesh computed = file;
     computeTangents(computed, 0);
-    std::size_t differing = 0, otherSign = 0;
+    std::vector<float> angles;
+    std::size_t otherSign = 0;
     for (std::size_t c = 0; c < file.indices.size(); ++c) {
-      differing += angleDegrees(glm::vec3(tangentAt(computed, c)), glm::vec3(tangentAt(file, c))) > 1.0f ? 1 : 0;
+      angles.push_back(angleDegrees(glm::vec3(tangentAt(computed, c)), glm::vec3(tangentAt(file, c))));
       otherSign += tangentAt(computed, c).w != tangentAt(file, c).w ? 1 : 0;
     }
-    std::printf("%s: %zu corners, %zu differ by more than a degree, %zu in sign, %zu vertices from %zu\n",
-                file.name.c_str(), file.indices.size(), differing, otherSign, computed.positions.size(),
-                file.positions.size());
+    std::ranges::nth_element(angles, angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2));
+    EXPECT_LT(angles[angles.size() / 2], 1.0f) << file.name;        // measured 0.02 to 0.95 degrees
+    EXPECT_LE(1000 * otherSign, file.indices.size()) << file.name;  // measured 15 of 72534 in one mesh, else none
   }
 }
 
