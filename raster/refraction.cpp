@@ -5,6 +5,25 @@ namespace {
 
 bool isGlass(const Material& material) { return material.constants.kind.x == shading::kSurfaceGlass; }
 
+std::string interfaceDefine(Refraction refraction) {
+  switch (refraction) {
+    case Refraction::oneInterface:
+      return "";
+    case Refraction::twoInterface:
+      return "#define REFRACTION_TWO_INTERFACE\n";
+    case Refraction::cubemapBackface:
+      return "#define REFRACTION_CUBEMAP_BACKFACE\n";
+    case Refraction::thickSlab:
+      return "#define REFRACTION_THICK_SLAB\n";
+  }
+  return "";
+}
+
+std::string dispersionDefine(Dispersion dispersion, const Material& material) {
+  if (material.constants.kind.w <= 0.0f || dispersion == Dispersion::off) return "";
+  return dispersion == Dispersion::rgbOffset ? "#define DISPERSION_RGB_OFFSET\n" : "#define DISPERSION_PER_CHANNEL\n";
+}
+
 }  // namespace
 
 bool isSolidGlass(const Material& material) { return isGlass(material) && material.constants.kind.z > 0.0f; }
@@ -20,17 +39,7 @@ bool isCapturedFromInside(const Technique& technique, const Material& material) 
 std::string refractionDefines(const Technique& technique, const Material& material) {
   if (!isGlass(material)) return "";
   if (!isSolidGlass(material)) return "#define REFRACTION_THIN_WALL\n";
-  switch (technique.refraction) {
-    case Refraction::oneInterface:
-      return "";
-    case Refraction::twoInterface:
-      return "#define REFRACTION_TWO_INTERFACE\n";
-    case Refraction::cubemapBackface:
-      return "#define REFRACTION_CUBEMAP_BACKFACE\n";
-    case Refraction::thickSlab:
-      return "#define REFRACTION_THICK_SLAB\n";
-  }
-  return "";
+  return interfaceDefine(technique.refraction) + dispersionDefine(technique.dispersion, material);
 }
 
 }  // namespace pb

@@ -85,15 +85,14 @@ RefractedRay refractedRay(Surface s, vec3 toViewer, float ior) {
   return ray;
 }
 
-// Radiance that arrives through the surface if its index of refraction is `ior`.
-vec3 radianceThrough(Surface s, vec3 toViewer, float ior) {
-  RefractedRay ray = refractedRay(s, toViewer, ior);
-  if (dot(ray.direction, ray.direction) == 0.0f) return vec3(0.0f);
+vec3 radianceOf(Surface s, RefractedRay ray, float ior) {
   return ray.tint * transmittance(s.absorption, ray.lengthMetres) *
          lobeRadiance(ray.direction, transmittedAlpha(s.alpha, ior, isThinWalled(s)));
 }
 
-// weight: of specularWeights(); the surface's normal is on the viewer's side.
-vec3 refractedRadiance(Surface s, vec3 toViewer, vec3 weight) {
-  return weight * radianceThrough(s, toViewer, s.ior);
+// Radiance that arrives through the surface if its index of refraction is `ior`.
+vec3 radianceThrough(Surface s, vec3 toViewer, float ior) {
+  RefractedRay ray = refractedRay(s, toViewer, ior);
+  if (dot(ray.direction, ray.direction) == 0.0f) return vec3(0.0f);
+  return radianceOf(s, ray, ior);
 }

@@ -50,6 +50,7 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
 }
 
 #include "raster/shaders/refraction.glsl"
+#include "raster/shaders/dispersion.glsl"
 #include "raster/shaders/specular.glsl"
 
 void main() {
