@@ -3,16 +3,24 @@
 
 #include <gmock/gmock.h>
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <map>
 #include <set>
 
 #include "scenes/builtin.h"
 #include "scenes/builtin/shapes.h"
 #include "scenes/builtin/teapot_mesh.h"
+#include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/snapshot.h"
+#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {
@@ -284,9 +292,146 @@ TEST(BuiltinScenes, AreAllMadeAndKnownByName) {
   EXPECT_THROW(makeBuiltinScene({"mirrors", {{"count", "65"}}}), Error);
 }
 
-TEST(BuiltinScenes, ControlHasNoSpecularSurface) {
-  for (const Material& material : makeBuiltinScene({"control", {}}).materials)
-    EXPECT_FALSE(material.isSpecularDominant) << material.name;
+TEST(BuiltinScenes, ControlsHaveNoSpecularSurface) {
+  for (const char* name : {"control", "control-alpha", "control-shadows"})
+    for (const Material& material : makeBuiltinScene({name, {}}).materials)
+      EXPECT_TRUE(material.constants.kind.x == shading::kSurfaceDiffuse ||
+                  material.constants.kind.x == shading::kSurfaceUnlit)
+          << name << ": " << material.name;
+}
+
+TEST(BuiltinScenes, OnlyControlShadowsCastsShadows) {
+  for (const BuiltinScene& builtin : builtinScenes())
+    EXPECT_EQ(makeBuiltinScene({builtin.name, {}}).castsShadows, builtin.name == "control-shadows") << builtin.name;
+}
+
+// Vertices are welded by position: flat shaded ones are split.
+using DirectedEdge = std::pair<std::array<float, 3>, std::array<float, 3>>;
+std::map<DirectedEdge, int> countEdges(const Mesh& mesh) {
+  std::map<DirectedEdge, int> edges;
+  const auto corner = [&](std::size_t i) {
+    const glm::vec3& p = mesh.positions[mesh.indices[i]];
+    return std::array<float, 3>{p.x, p.y, p.z};
+  };
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) ++edges[{corner(t + k), corner(t + (k + 1) % 3)}];
+  return edges;
+}
+
+double signedVolume(const Mesh& mesh) {
+  double volume = 0.0;
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    const auto p = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[t + k]]); };
+    volume += glm::dot(p(0), glm::cross(p(1), p(2))) / 6.0;
+  }
+  return volume;
+}
+
+TEST(BuiltinScenes, GlassIsClosedAndWoundOutwards) {
+  int meshes = 0;
+  for (const BuiltinScene& builtin : builtinScenes()) {
+    const Scene scene = makeBuiltinScene({builtin.name, {}});
+    for (const Instance& instance : scene.instances) {
+      if (scene.materials[static_cast<std::size_t>(instance.material)].constants.kind.x != shading::kSurfaceGlass)
+        continue;
+      const std::map<DirectedEdge, int> edges = countEdges(*instance.mesh);
+      for (const auto& [edge, count] : edges) {
+        ASSERT_EQ(count, 1) << builtin.name << ": " << instance.name;
+        ASSERT_TRUE(edges.contains({edge.second, edge.first})) << builtin.name << ": " << instance.name;
+      }
+      EXPECT_GT(signedVolume(*instance.mesh), 0.0) << builtin.name << ": " << instance.name;
+      ++meshes;
+    }
+  }
+  EXPECT_EQ(meshes, 8);  // four balls of `glass`, four bodies of `dispersion`
+}
+
+TEST(BuiltinScenes, MetalsAreRoughRows_EachSphereWithItsProbe) {
+  for (const int grid : {2, 5}) {
+    const auto scene = std::make_shared<const Scene>(makeBuiltinScene({"metals", {{"grid", std::to_string(grid)}}}));
+    EXPECT_EQ(makeSnapshot(scene, 0, "", 1.0)->probes.size(), static_cast<std::size_t>(3 * grid));
+    float before = 1.0f;
+    for (const Material& material : scene->materials) {
+      if (material.constants.conductorEta.w == 0.0f) continue;
+      const float roughness = material.constants.factors.y;
+      EXPECT_EQ(material.constants.kind.x, roughness == 0.0f ? shading::kSurfaceMirror : shading::kSurfaceGlossy);
+      if (roughness > 0.0f) {
+        EXPECT_GT(roughness, before);
+      }
+      before = roughness;
+    }
+    EXPECT_FLOAT_EQ(before, 0.8f);
+  }
+}
+
+TEST(BuiltinScenes, MetalsHaveTheirPublishedColours) {
+  // Reflectance at normal incidence, ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2), of Johnson and Christy's n and k in table I
+  // at 1.88 eV (659.5 nm), 2.26 eV (548.6 nm) and 2.75 eV (450.9 nm). The scene interpolates to 650, 550 and 450 nm,
+  // which moves the largest, copper's in the red, by 0.014.
+  const glm::vec3 silver(0.9906f, 0.9828f, 0.9803f), gold(0.9626f, 0.7869f, 0.4082f), copper(0.9433f, 0.6195f, 0.5392f);
+  const auto f0 = [](const Material& m) {
+    return shading::F_Conductor(1.0f, glm::vec3(m.constants.conductorEta), glm::vec3(m.constants.conductorK));
+  };
+  for (const Material& material : makeBuiltinScene({"metals", {}}).materials)
+    for (const auto& [name, color] :
+         {std::pair("Silver", silver), std::pair("Gold", gold), std::pair("Copper", copper)}) {
+      if (!material.name.starts_with(name)) continue;
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(f0(material)[c], color[c], 0.015f) << material.name;
+    }
+}
+
+std::size_t triangleCount(const Scene& scene) {
+  std::size_t triangles = 0;
+  for (const Instance& instance : scene.instances) triangles += instance.mesh->triangleCount();
+  return triangles;
+}
+
+// The scenes of the peer benchmark are written by its own script, which stands beside this repository where it was
+// made.
+class PeerScene : public ::testing::TestWithParam<std::array<const char*, 2>> {};
+
+TEST_P(PeerScene, HasTheVerticesAndMaterialsOfItsFile) {
+  const std::filesystem::path script = PROBEBENCH_SOURCE_DIR "/../shared/peers/cpu-raytracers/scenes.py";
+  if (!std::filesystem::exists(script)) GTEST_SKIP() << "no " << script;
+  const TemporaryFolder folder;
+  const auto [reference, name] = GetParam();
+  const std::string command =
+      fmt::format("python3 -B '{}' '{}' {} > '{}'", script.string(), folder.path().string(), name, folder.file("log"));
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const auto file = loadScene(folder.file(std::string(name) + ".glb")), builtin = loadScene(reference);
+  ASSERT_EQ(file->instances.size(), builtin->instances.size());
+  for (std::size_t i = 0; i < file->instances.size(); ++i) {
+    const Instance &a = file->instances[i], &b = builtin->instances[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.mesh->positions, b.mesh->positions) << a.name;
+    EXPECT_EQ(a.mesh->normals, b.mesh->normals) << a.name;
+    EXPECT_EQ(a.mesh->indices, b.mesh->indices) << a.name;
+    const Material& m = file->materials[static_cast<std::size_t>(a.material)];
+    const Material& n = builtin->materials[static_cast<std::size_t>(b.material)];
+    EXPECT_EQ(m.name, n.name);
+    EXPECT_EQ(m.constants.baseColor, n.constants.baseColor) << m.name;
+    EXPECT_EQ(m.constants.emission, n.constants.emission) << m.name;
+    EXPECT_EQ(m.constants.kind, n.constants.kind) << m.name;
+    EXPECT_EQ(m.constants.factors, n.constants.factors) << m.name;
+  }
+  const auto a = makeSnapshot(file, 0, "", 16.0 / 9.0), b = makeSnapshot(builtin, 0, "", 16.0 / 9.0);
+  for (const auto member :
+       {&shading::View::origin, &shading::View::forward, &shading::View::right, &shading::View::down})
+    EXPECT_LT(glm::distance(a->camera.*member, b->camera.*member), 1e-6f);
+  EXPECT_EQ(a->lights.size(), b->lights.size());
+  EXPECT_EQ(a->areaLights.size(), b->areaLights.size());
+  EXPECT_EQ(environmentRadiance(file->environment, {0, 1, 0}), environmentRadiance(builtin->environment, {0, 1, 0}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PeerScene,
+                         ::testing::Values(std::array{"builtin:mirrors-ring", "mirrors8"},
+                                           std::array{"builtin:glass", "glass"},
+                                           std::array{"builtin:mirrors-ring?point=1", "mirrors8pt"}),
+                         [](const auto& test) { return std::string(test.param[1]); });
+
+TEST(BuiltinScenes, PeerScenesHaveTheirTriangles) {
+  EXPECT_EQ(triangleCount(makeBuiltinScene({"mirrors-ring", {}})), 48512U);
+  EXPECT_EQ(triangleCount(makeBuiltinScene({"glass", {}})), 48514U);
 }
 
 TEST(BuiltinScenes, MirrorsHasAsManyProbesAsMirrors) {
