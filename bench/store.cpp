@@ -77,13 +77,14 @@ fs::path defaultStoreFolder() {
 std::string ReferenceStore::describe(const ReferenceRequest& request) {
   const ReferenceSettings& settings = request.settings;
   return fmt::format(
-      "snapshot {:016x} size {}x{} samples {} spp {} depth {} diffuse {} {} seed {} hidden [{}] integrator {} embree "
-      "{}",
+      "snapshot {:016x} size {}x{} samples {} spp {} depth {} diffuse {} {} seed {} sampling {} hidden [{}] integrator "
+      "{} embree {}",
       contentHash(*request.snapshot), request.widthPx, request.heightPx,
       settings.samplesPerAxis * settings.samplesPerAxis, settings.spp,
       settings.depth ? std::to_string(*settings.depth) : "converged", printDiffuse(settings.diffuse),
       settings.diffuseDepth ? std::to_string(*settings.diffuseDepth) : "unlimited", settings.seed,
-      fmt::join(settings.hiddenInstances, ","), kIntegratorVersion, embreeVersion());
+      settings.sampling == Sampling::sobol ? "sobol" : "independent", fmt::join(settings.hiddenInstances, ","),
+      kIntegratorVersion, embreeVersion());
 }
 
 fs::path ReferenceStore::entry(const ReferenceRequest& request) const { return folder_ / hexHash(describe(request)); }

@@ -20,15 +20,18 @@ struct Tile {
 void forEachTile(int width, int height, const std::atomic<bool>* cancelled,
                  const std::function<void(const Tile&)>& render);
 
-// The samples of one pixel. Sample s of a primary point belongs to batch s % batchCount.
+// The samples of one pixel, in two halves of equally many batches: batch 2 k + h belongs to half h. A half's samples of
+// a point are points of one low-discrepancy sequence; they go to the half's batches in turn, so that 2^k consecutive
+// ones are spread evenly, and each point begins with another batch, so that no batch always has the same place in the
+// order.
 class PixelBatches {
  public:
   explicit PixelBatches(int batchCount) : batchCount_(batchCount) {}
 
   // The next primary point, of which every sample is `radiance`.
   void addPoint(const glm::vec3& radiance);
-  // The next primary point, sampleOf(s) being its sample s.
-  void addPoint(int samples, const std::function<glm::vec3(int)>& sampleOf);
+  // The next primary point: sampleOf(half, i) is sample i of that half, i < samples / 2.
+  void addPoint(int samples, const std::function<glm::vec3(int, int)>& sampleOf);
 
   // Mean over the points.
   glm::vec3 batch(int index) const;

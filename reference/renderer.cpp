@@ -1,10 +1,13 @@
 #include "reference/renderer.h"
 
 #include <algorithm>
+#include <bit>
+#include <mutex>
 
 #include "reference/embree_scene.h"
 #include "reference/film.h"
 #include "reference/integrator.h"
+#include "reference/light_sampler.h"
 #include "reference/sampler.h"
 #include "scenes/error.h"
 
@@ -38,6 +41,14 @@ HiddenInstances hiddenFlags(const Snapshot& snapshot, const std::vector<int>& hi
   return flags;
 }
 
+// Interleaved bits of two numbers below 2^16.
+std::uint32_t mortonCode(int x, int y) {
+  std::uint32_t code = 0;
+  for (int bit = 0; bit < 16; ++bit)
+    code |= static_cast<std::uint32_t>((x >> bit & 1) | (y >> bit & 1) << 1) << (2 * bit);
+  return code;
+}
+
 // Rays through the centres of a regular grid of samples, one a sample of the raster.
 class PrimaryRays {
  public:
@@ -58,6 +69,12 @@ class PrimaryRays {
     return static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns_) + static_cast<std::uint32_t>(column);
   }
 
+  // Of the pixel that holds samplesPerAxis x samplesPerAxis of the rays.
+  std::uint32_t pixelIndex(int x, int y, int samplesPerAxis) const {
+    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(columns_ / samplesPerAxis) +
+           static_cast<std::uint32_t>(x);
+  }
+
   float conePerMetre() const { return view_.forward.w; }
 
  private:
@@ -76,21 +93,33 @@ struct Rendering {
     return tracePath(scene, ray, primaries.conePerMetre(), settings.depth, sampler);
   }
 
+  // Of sample `i` of a half at primary point (column, row). Each half of a pixel is one sequence: a point takes
+  // consecutive members, and the points follow each other in Morton's order, so that squares of points, too, are
+  // stratified.
+  Sampler sampler(int column, int row, int half, int i) const {
+    const std::uint32_t point = primaries.index(column, row);
+    const auto h = static_cast<std::uint32_t>(half), sample = static_cast<std::uint32_t>(i);
+    if (settings.sampling == Sampling::independent) return {settings.seed, point, std::uint64_t{2} * sample + h};
+    const int n = settings.samplesPerAxis;
+    const std::uint32_t samplesOfPoint = std::bit_ceil(static_cast<std::uint32_t>(settings.spp / 2));
+    return Sampler::sobol(settings.seed, primaries.pixelIndex(column / n, row / n, n), h,
+                          mortonCode(column % n, row % n) * samplesOfPoint + sample);
+  }
+
   // All samples of one primary point; returns the number of rays.
   std::int64_t addPoint(int column, int row, PixelBatches& pixel) const {
     const Ray ray = primaries.ray(column, row);
-    const std::uint32_t point = primaries.index(column, row);
-    Sampler firstSampler(settings.seed, point, 0);
+    Sampler firstSampler = sampler(column, row, 0, 0);
     const PathResult first = sample(ray, firstSampler);
     std::int64_t rays = first.rays;
     if (!firstSampler.used()) {
       pixel.addPoint(first.radiance);
       return rays;
     }
-    pixel.addPoint(settings.spp, [&](int s) {
-      if (s == 0) return first.radiance;
-      Sampler sampler(settings.seed, point, static_cast<std::uint64_t>(s));
-      const PathResult path = sample(ray, sampler);
+    pixel.addPoint(settings.spp, [&](int half, int i) {
+      if (half == 0 && i == 0) return first.radiance;
+      Sampler next = sampler(column, row, half, i);
+      const PathResult path = sample(ray, next);
       rays += path.rays;
       return path.radiance;
     });
@@ -117,8 +146,18 @@ struct ReferenceScene::Impl {
     return {*snapshot, embree, hiddenFlags(*snapshot, hidden)};
   }
 
+  // The same, where paths will look for light; what that takes is made when it is first needed.
+  TracedScene litWithout(const std::vector<int>& hidden) const {
+    std::call_once(lightsMade, [&] { lights = std::make_unique<LightSampler>(*snapshot); });
+    TracedScene scene = without(hidden);
+    if (!lights->empty()) scene.lights = lights.get();
+    return scene;
+  }
+
   std::shared_ptr<const Snapshot> snapshot;
   EmbreeScene embree;
+  mutable std::once_flag lightsMade;
+  mutable std::unique_ptr<LightSampler> lights;
 };
 
 ReferenceScene::ReferenceScene(std::shared_ptr<const Snapshot> snapshot)
@@ -131,7 +170,7 @@ ReferenceImage ReferenceScene::render(const shading::View& view, int widthPx, in
   checkSampling(settings);
   checkDepth(settings);
   const int n = settings.samplesPerAxis;
-  const Rendering rendering{impl_->without(settings.hiddenInstances), settings,
+  const Rendering rendering{impl_->litWithout(settings.hiddenInstances), settings,
                             PrimaryRays(view, widthPx * n, heightPx * n)};
   ReferenceImage image;
   image.batches.assign(static_cast<std::size_t>(std::min(settings.spp, kMaxBatches)), Image(widthPx, heightPx));
@@ -164,7 +203,7 @@ glm::vec3 ReferenceScene::radiance(glm::vec3 origin, glm::vec3 direction, const 
                                    std::uint64_t sample) const {
   checkDepth(settings);
   Sampler sampler(settings.seed, 0, sample);
-  return tracePath(impl_->without(settings.hiddenInstances), {origin, direction}, 0.0f, settings.depth, sampler)
+  return tracePath(impl_->litWithout(settings.hiddenInstances), {origin, direction}, 0.0f, settings.depth, sampler)
       .radiance;
 }
 

@@ -17,6 +17,9 @@ namespace pb {
 // Light that diffuse surfaces get: that of their hit point alone, or all that paths bring (global illumination).
 enum class DiffuseTransport { local, traced };
 
+// Where the numbers of paths come from: Owen-scrambled Sobol sequences, or, for comparison, independent random numbers.
+enum class Sampling { sobol, independent };
+
 struct ReferenceSettings {
   int samplesPerAxis = 4;      // S: S x S primary points on a regular grid in each pixel, box filter
   int spp = 16;                // samples of the other dimensions per primary point, even, at least 2
@@ -25,6 +28,7 @@ struct ReferenceSettings {
   std::optional<int> diffuseDepth{};  // N, of traced paths: diffuse bounces after which diffuse surfaces only get direct
                                       // light and the occluded sky; none: unlimited
   std::uint64_t seed = 1;
+  Sampling sampling = Sampling::sobol;
   std::vector<int> hiddenInstances{};  // left out of the scene for every ray
 
   friend bool operator==(const ReferenceSettings&, const ReferenceSettings&) = default;
