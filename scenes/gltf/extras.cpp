@@ -249,6 +249,17 @@ bool readOwnExtras(const Document& document, const json& own, Scene& scene) {
   return own.contains("environment");
 }
 
+// The three.js benchmark's formula for its diffuse materials has no coat, though their factors would give them one.
+void removeCoats(Scene& scene) {
+  for (Material& material : scene.materials) {
+    shading::MaterialConstants& c = material.constants;
+    if (c.kind.x != shading::kSurfaceGlossy || c.factors.x > 0.0f) continue;
+    c.specular.w = 0.0f;
+    c.kind.x = shading::kSurfaceDiffuse;
+  }
+  scene.notes.emplace_back("extras.diffuse gives Lambert's law: materials that are no metals have no dielectric coat");
+}
+
 // Of the three.js cube-camera benchmark. Its sky is stored in bytes, so that no channel exceeds 1.
 bool readCubeCameraExtras(const json& extras, Scene& scene) {
   bool hasEnvironment = false;
@@ -264,6 +275,9 @@ bool readCubeCameraExtras(const json& extras, Scene& scene) {
   }
   if (extras.contains("ambientRadiance"))
     scene.environment.ambient = constantAmbient(color(extras["ambientRadiance"], "extras.ambientRadiance"));
+  if (extras.contains("diffuse") && extras["diffuse"].is_string() &&
+      extras["diffuse"].get<std::string>().starts_with("albedo * "))
+    removeCoats(scene);
   if (extras.contains("cubeCamera") && extras["cubeCamera"].is_object() && extras["cubeCamera"].contains("near"))
     scene.probeNear =
         static_cast<float>(number(extras["cubeCamera"]["near"], "extras.cubeCamera.near", 1e-6, kLargest));

@@ -1,7 +1,7 @@
 // What glTF can't say. Written to and read from scenes[].extras.probebench (sky, ambient light, screens, shadows, near
 // plane of probes, frame rate), materials[].extras.probebench (a metal's index of refraction, the screen that it shows)
 // and nodes[].extras.probe; their JSON Schema is results/schema/scene-extras.schema.json. Also read are the extras of
-// two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, cubeCamera.near.
+// two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, diffuse, cubeCamera.near.
 #pragma once
 
 #include <functional>

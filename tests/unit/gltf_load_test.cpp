@@ -559,6 +559,50 @@ TEST(GltfExtras, OfTheCubeCameraBenchmark_SetSkyAmbientAndNearPlane) {
   EXPECT_EQ(environmentRadiance(scene.environment, {0, 1, 0}), glm::vec3(1.0f));  // clamped: its sky is made of bytes
 }
 
+TEST(GltfExtras, OfTheCubeCameraBenchmark_TakeTheCoatsFromItsDiffuseMaterials) {
+  GltfFile file;
+  file.material()["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  EXPECT_EQ(constantsOf(file).kind.x, shading::kSurfaceGlossy);
+  file.json["scenes"][0]["extras"]["diffuse"] = "albedo * (ambientRadiance + directRadiance)";
+  EXPECT_EQ(constantsOf(file).kind.x, shading::kSurfaceDiffuse);
+  EXPECT_EQ(constantsOf(file).specular.w, 0.0f);
+  EXPECT_THAT(file.load().notes, Contains(HasSubstr("no dielectric coat")));
+  file.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 1;
+  EXPECT_EQ(constantsOf(file).kind.x, shading::kSurfaceGlossy);
+}
+
+// What write_glb() of the ray tracers' benchmark (scenes.py) makes of each of its kinds of material.
+TEST(GltfMaterial, OfTheRayTracersBenchmark_AreItsKinds) {
+  GltfFile file;
+  file.json["scenes"][0]["extras"] = {{"skyRadiance", {0.45, 0.5, 0.6}}};
+  const auto load = [&](const char* material) {
+    file.material() = json::parse(material);
+    const Scene scene = file.load();
+    EXPECT_EQ(environmentRadiance(scene.environment, {0, 1, 0}), glm::vec3(0.45f, 0.5f, 0.6f));
+    EXPECT_EQ(shading::ambientRadiance(scene.environment.ambient, {0, 1, 0}), glm::vec3(0.45f, 0.5f, 0.6f));
+    return scene.materials.at(0).constants;
+  };
+  const auto diffuse = load(R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1},
+    "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})");
+  EXPECT_EQ(diffuse.kind.x, shading::kSurfaceDiffuse);
+  const auto gold = load(R"({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0.3}})");
+  EXPECT_EQ(gold.kind.x, shading::kSurfaceGlossy);
+  EXPECT_EQ(gold.factors.y, 0.3f);
+  const auto mirror = load(R"({"pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 0}})");
+  EXPECT_EQ(mirror.kind.x, shading::kSurfaceMirror);
+  const auto light = load(R"({"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+    "emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8},
+                                                "KHR_materials_specular": {"specularFactor": 0}}})");
+  EXPECT_EQ(light.kind.x, shading::kSurfaceDiffuse);
+  EXPECT_EQ(glm::vec3(light.emission), glm::vec3(8.0f));
+  const auto glass = load(R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0}, "extensions": {
+    "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.5},
+    "KHR_materials_volume": {"thicknessFactor": 1.4}}})");
+  EXPECT_EQ(glass.kind, glm::vec4(shading::kSurfaceGlass, 1.5f, 1.4f, 0.0f));
+  EXPECT_EQ(glass.absorption, glm::vec4(0.0f));
+  EXPECT_EQ(glass.factors, glm::vec4(0.0f, 0.0f, 1.0f, 1.0f));
+}
+
 TEST(GltfFiles, WithEmbeddedOrExternalData_AreTheSame) {
   GltfFile file;
   file.material()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", file.addTexture(grayPng(0.5f))}};
@@ -648,6 +692,13 @@ TEST(RealAssets, CubeCameraBenchmark_IsTheBuiltinScene) {
     // Float rounding of positions up to 10 m.
     EXPECT_LT(glm::distance(a->instances[i].worldBounds.lower, b->instances[i].worldBounds.lower), 2e-6f) << i;
     EXPECT_LT(glm::distance(a->instances[i].worldBounds.upper, b->instances[i].worldBounds.upper), 2e-6f) << i;
+    const shading::MaterialConstants &m = a->materialOf(a->instances[i]).constants,
+                                     &n = b->materialOf(b->instances[i]).constants;
+    EXPECT_EQ(m.kind.x, n.kind.x) << i;
+    EXPECT_LT(glm::distance(m.baseColor, n.baseColor), 1e-6f) << i;
+    if (m.kind.x == shading::kSurfaceDiffuse) {
+      EXPECT_EQ(m.specular.w, 0.0f) << i;
+    }
   }
   EXPECT_EQ(a->probes.size(), 8U);
   const glm::vec3 d = glm::normalize(glm::vec3(0.3f, 0.4f, -0.5f));

@@ -3,17 +3,21 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "bench/json_document.h"
+#include "scenes/builtin.h"
 #include "scenes/describe.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
 #include "scenes/gltf_load.h"
+#include "scenes/screen.h"
 #include "scenes/snapshot.h"
 #include "tests/temporary_folder.h"
+#include "tests/unit/gltf_file.h"
 
 namespace pb {
 namespace {
@@ -39,7 +43,42 @@ std::shared_ptr<const Scene> savedAndLoaded(const Scene& scene) {
   return std::make_shared<const Scene>(loadGltf(folder.file("scene.glb")));
 }
 
-class BuiltinExport : public ::testing::TestWithParam<const char*> {
+// Every member of a material but its textures, which are renumbered.
+void expectSame(const Material& a, const Material& b) {
+  EXPECT_TRUE(sameBytes(a.constants, b.constants)) << a.name;
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.screen, b.screen) << a.name;
+  EXPECT_EQ(a.doubleSided, b.doubleSided) << a.name;
+  EXPECT_EQ(a.isSpecularDominant, b.isSpecularDominant) << a.name;
+  EXPECT_EQ(a.attenuationDistance, b.attenuationDistance) << a.name;
+  EXPECT_EQ(a.attenuationColor, b.attenuationColor) << a.name;
+}
+
+void expectSame(const PunctualLight& a, const PunctualLight& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.intensity, b.intensity);
+  EXPECT_EQ(a.range, b.range);
+  if (a.kind != shading::kLightSpot) return;
+  EXPECT_EQ(a.innerConeAngle, b.innerConeAngle);
+  EXPECT_EQ(a.outerConeAngle, b.outerConeAngle);
+}
+
+void expectSame(const Screen& a, const Screen& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.program, b.program) << a.name;
+  EXPECT_EQ(a.widthPx, b.widthPx) << a.name;
+  EXPECT_EQ(a.heightPx, b.heightPx) << a.name;
+  EXPECT_EQ(a.periodSeconds, b.periodSeconds) << a.name;
+  EXPECT_EQ(a.phase, b.phase) << a.name;
+}
+
+template <class T>
+void expectSame(const std::vector<T>& a, const std::vector<T>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expectSame(a[i], b[i]);
+}
+
+class BuiltinExport : public ::testing::TestWithParam<std::string> {
  protected:
   std::shared_ptr<const Scene> original_ = loadScene(GetParam());
   std::shared_ptr<const Scene> loaded_ = savedAndLoaded(*original_);
@@ -59,15 +98,10 @@ TEST_P(BuiltinExport, KeepsGeometryAndTransformsBitByBit) {
 }
 
 TEST_P(BuiltinExport, KeepsMaterialsLightsAndSky) {
-  ASSERT_EQ(original_->materials.size(), loaded_->materials.size());
-  for (std::size_t m = 0; m < original_->materials.size(); ++m) {
-    EXPECT_TRUE(sameBytes(original_->materials[m].constants, loaded_->materials[m].constants))
-        << original_->materials[m].name;
-    EXPECT_EQ(original_->materials[m].doubleSided, loaded_->materials[m].doubleSided);
-  }
-  ASSERT_EQ(original_->lights.size(), loaded_->lights.size());
-  for (std::size_t l = 0; l < original_->lights.size(); ++l)
-    EXPECT_EQ(original_->lights[l].intensity, loaded_->lights[l].intensity);
+  expectSame(original_->materials, loaded_->materials);
+  expectSame(original_->lights, loaded_->lights);
+  expectSame(original_->screens, loaded_->screens);
+  EXPECT_EQ(original_->castsShadows, loaded_->castsShadows);
   EXPECT_TRUE(sameBytes(original_->environment.sky, loaded_->environment.sky));
   EXPECT_TRUE(sameBytes(original_->environment.ambient, loaded_->environment.ambient));
   EXPECT_EQ(original_->probeNear, loaded_->probeNear);
@@ -92,9 +126,17 @@ TEST_P(BuiltinExport, KeepsTexturesToSixteenBits) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinExport,
-                         ::testing::Values("builtin:mirrors?count=3", "builtin:control", "builtin:teapot"),
-                         [](const auto& test) { return std::string(test.param).substr(8, 6); });
+std::vector<std::string> builtinReferences() {
+  std::vector<std::string> references;
+  for (const BuiltinScene& scene : builtinScenes()) references.push_back(fmt::format("builtin:{}", scene.name));
+  return references;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BuiltinExport, ::testing::ValuesIn(builtinReferences()), [](const auto& test) {
+  std::string name = test.param.substr(8);
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
 
 TEST(SaveGlb, OfTexturesOfBytes_LosesNothing) {
   const auto scene = loadScene("builtin:mirrors?count=1");  // its ground is a checker of two bytes
@@ -102,12 +144,28 @@ TEST(SaveGlb, OfTexturesOfBytes_LosesNothing) {
   EXPECT_EQ(contentHash(*makeSnapshot(scene, 0, "", 1.0)), contentHash(*makeSnapshot(loaded, 0, "", 1.0)));
 }
 
+Material makeLeaf() {
+  Material leaf = makeDiffuseMaterial("leaf", {0.1f, 0.6f, 0.2f});
+  leaf.constants.baseColor.w = 0.75f;
+  leaf.constants.alpha = {shading::kAlphaMask, 0.375f, 0.0f, 0.0f};
+  leaf.doubleSided = true;
+  return leaf;
+}
+
+// Johnson and Christy, "Optical Constants of the Noble Metals" (1972), about 630, 530 and 465 nm.
+Material makeGold(float roughness) {
+  Material gold = makeMetalMaterial("gold", {0.18f, 0.54f, 1.34f}, {3.1f, 2.2f, 1.9f}, roughness);
+  gold.constants.alpha.x = shading::kAlphaBlend;
+  return gold;
+}
+
 Scene makeOddScene() {
   Scene scene = *loadScene("builtin:mirrors?count=1");
   Material glass = makeDiffuseMaterial("glass", glm::vec3(0.9f));
   glass.constants.kind = {shading::kSurfaceGlass, 1.33f, 0.5f, 0.1f};
   glass.constants.factors = {0.0f, 0.0f, 1.0f, 0.9f};
-  glass.constants.specular.w = 0.5f;
+  glass.constants.specular = {1.0f, 0.75f, 0.5f, 0.5f};
+  glass.isSpecularDominant = true;
   setAttenuation(glass, {0.5f, 1.0f, 0.25f}, 2.0f);
   Material screen = makeDiffuseMaterial("screen", glm::vec3(0.5f));
   screen.constants.emission = {100.0f, 3.0f, 0.1f, 1.0f};
@@ -118,8 +176,15 @@ Scene makeOddScene() {
   screen.baseColorTexture = 0;
   Material lamp = makeDiffuseMaterial("lamp", glm::vec3(1.0f));
   lamp.constants.kind.x = shading::kSurfaceUnlit;
-  scene.materials = {glass, screen, lamp};
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) scene.instances[i].material = static_cast<int>(i % 3);
+  scene.materials = {glass, screen, lamp, makeLeaf(), makeGold(0.0f), makeGold(0.5f)};
+  for (std::size_t program = 0; program < 4; ++program) {
+    scene.screens.push_back({fmt::format("screen {}", program), static_cast<float>(program), 32, 24, 2.5f, 0.25f});
+    scene.materials.push_back(makeDiffuseMaterial("shows a screen", glm::vec3(0.0f)));
+    showScreen(scene.materials.back(), static_cast<int>(program), {2.0f, 0.5f, 1.0f});
+  }
+  scene.castsShadows = true;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    scene.instances[i].material = static_cast<int>(i % scene.materials.size());
   scene.nodes[0].probe = ProbeSettings{.enabled = false, .position = glm::vec3(1, 2, 3)};
   scene.cameras.push_back(scene.cameras[0]);
   scene.cameras.back().name = "second";
@@ -130,13 +195,9 @@ Scene makeOddScene() {
 TEST(SaveGlb, OfEveryMaterialFeature_LoadsThemBack) {
   const Scene scene = makeOddScene();
   const auto loaded = savedAndLoaded(scene);
-  const Material& glass = loaded->materials.at(0);
-  EXPECT_TRUE(sameBytes(glass.constants, scene.materials[0].constants));
-  EXPECT_EQ(glass.constants.kind.z, 0.5f);
-  EXPECT_EQ(glass.attenuationDistance, 2.0f);
-  EXPECT_EQ(glass.attenuationColor, scene.materials[0].attenuationColor);
-  EXPECT_EQ(glass.constants.kind.w, 0.1f);
-  EXPECT_EQ(glass.constants.specular.w, 0.5f);
+  ASSERT_EQ(loaded->materials.size(), scene.materials.size());
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    if (m != 1) expectSame(scene.materials[m], loaded->materials[m]);
   const shading::MaterialConstants& screen = loaded->materials.at(1).constants;
   EXPECT_EQ(screen.emission, scene.materials[1].constants.emission);
   EXPECT_EQ(screen.baseColorSlot.offset, scene.materials[1].constants.baseColorSlot.offset);
@@ -144,7 +205,19 @@ TEST(SaveGlb, OfEveryMaterialFeature_LoadsThemBack) {
   // Rotation and scale are taken apart and put together again.
   for (int i = 0; i < 4; ++i)
     EXPECT_NEAR(screen.baseColorSlot.matrix[i], scene.materials[1].constants.baseColorSlot.matrix[i], 1e-6);
-  EXPECT_EQ(loaded->materials.at(2).constants.kind.x, shading::kSurfaceUnlit);
+}
+
+TEST(SaveGlb, OfScreensAndShadows_LoadsThemBack) {
+  const Scene scene = makeOddScene();
+  const auto loaded = savedAndLoaded(scene);
+  expectSame(scene.screens, loaded->screens);
+  EXPECT_TRUE(loaded->castsShadows);
+}
+
+TEST(LoadGlb, WithAMaterialThatShowsAMissingScreen_IsRefused) {
+  Scene scene = makeOddScene();
+  scene.screens.pop_back();
+  EXPECT_THAT([&] { savedAndLoaded(scene); }, ::testing::ThrowsMessage<Error>(HasSubstr("wants screen 3")));
 }
 
 TEST(SaveGlb, OfProbesAndSeveralCamerasAtANode_LoadsThemBack) {
@@ -175,17 +248,77 @@ nlohmann::json jsonOf(const std::string& glb) {
   return nlohmann::json::parse(glb.substr(20, length));
 }
 
-TEST(SaveGlb, WritesExtrasThatMatchTheirSchema) {
+// The schema of the scene's extras, or of one of its definitions.
+std::string schemaOf(const std::string& definition = "") {
+  nlohmann::json schema =
+      nlohmann::json::parse(readFile(PROBEBENCH_SOURCE_DIR "/results/schema/scene-extras.schema.json"));
+  if (definition.empty()) return schema.dump();
+  return nlohmann::json{{"$ref", "#/definitions/" + definition}, {"definitions", schema["definitions"]}}.dump();
+}
+
+nlohmann::json savedJson(const Scene& scene) {
   const TemporaryFolder folder;
-  const std::string schema = readFile(PROBEBENCH_SOURCE_DIR "/results/schema/scene-extras.schema.json");
+  saveGlb(scene, folder.file("scene.glb"));
+  return jsonOf(readFile(folder.file("scene.glb")));
+}
+
+TEST(SaveGlb, WritesExtrasThatMatchTheirSchema) {
   Scene cube = *loadScene("builtin:mirrors?count=1");
   cube.environment = makeCubeEnvironment("room", std::vector<ImageRgba>(6, ImageRgba(1, 1)));
-  for (const Scene& scene : {*loadScene("builtin:teapot"), cube}) {
-    saveGlb(scene, folder.file("scene.glb"));
-    nlohmann::json extras = jsonOf(readFile(folder.file("scene.glb")))["scenes"][0]["extras"]["probebench"];
-    EXPECT_NO_THROW(parsePart(extras.dump(), "extras", schema));
+  for (const Scene& scene : {*loadScene("builtin:teapot"), makeOddScene(), cube}) {
+    nlohmann::json extras = savedJson(scene)["scenes"][0]["extras"]["probebench"];
+    EXPECT_NO_THROW(parsePart(extras.dump(), "extras", schemaOf()));
     extras["environment"]["ambient"].erase(0);
-    EXPECT_THROW(parsePart(extras.dump(), "extras", schema), Error);
+    EXPECT_THROW(parsePart(extras.dump(), "extras", schemaOf()), Error);
+  }
+}
+
+TEST(SaveGlb, WritesExtrasOfMaterialsAndNodesThatMatchTheirSchema) {
+  const nlohmann::json file = savedJson(makeOddScene());
+  EXPECT_NO_THROW(parsePart(file["nodes"][0]["extras"]["probe"].dump(), "extras", schemaOf("probe")));
+  int withExtras = 0;
+  for (const nlohmann::json& material : file["materials"]) {
+    if (!material.contains("extras")) continue;
+    nlohmann::json extras = material["extras"]["probebench"];
+    EXPECT_NO_THROW(parsePart(extras.dump(), "extras", schemaOf("material")));
+    extras["eta"] = {1, 2};
+    EXPECT_THROW(parsePart(extras.dump(), "extras", schemaOf("material")), Error);
+    ++withExtras;
+  }
+  EXPECT_EQ(withExtras, 6);  // two metals, four screens
+}
+
+// Written by hand: what the loader takes is what the schema allows.
+TEST(SceneExtras, BySchemaAndLoader_AreJudgedAlike) {
+  const char* const accepted[] = {
+      R"({"schema": 1})",
+      R"({"schema": 1, "environment": {"constant": 0.5}, "shadows": "traced"})",
+      R"({"schema": 1, "environment": {"sky": {"horizon": 1, "zenith": [0, 0, 1], "below": 0}}})",
+      R"({"schema": 1, "screens": [{"program": "rings"}, {"program": "melt", "size": [8, 8], "phase": -0.5}]})",
+  };
+  const char* const refused[] = {
+      R"({"schema": 2})",
+      R"({"schema": 1, "shadows": true})",
+      R"({"schema": 1, "environment": {}})",
+      R"({"schema": 1, "environment": {"constant": 1, "sky": {"horizon": 1, "zenith": 1, "below": 1}}})",
+      R"({"schema": 1, "environment": {"constant": [1, 2]}})",
+      R"({"schema": 1, "environment": {"sky": {"horizon": 1, "zenith": 1, "below": 1, "glow": 1}}})",
+      R"({"schema": 1, "screens": [{"program": "snow"}]})",
+      R"({"schema": 1, "screens": [{"program": "melt", "size": [0, 8]}]})",
+      R"({"schema": 1, "probeNear": 0})",
+  };
+  const auto loadWith = [](const char* extras) {
+    GltfFile file;
+    file.json["scenes"][0]["extras"]["probebench"] = nlohmann::json::parse(extras);
+    file.load();
+  };
+  for (const char* extras : accepted) {
+    EXPECT_NO_THROW(parsePart(extras, "extras", schemaOf())) << extras;
+    EXPECT_NO_THROW(loadWith(extras)) << extras;
+  }
+  for (const char* extras : refused) {
+    EXPECT_THROW(parsePart(extras, "extras", schemaOf()), Error) << extras;
+    EXPECT_THROW(loadWith(extras), Error) << extras;
   }
 }
 
