@@ -15,6 +15,7 @@
 #include "raster/shaders/prefilter_source.comp.h"
 #include "raster/shaders/scene.frag.h"
 #include "raster/shaders/scene.vert.h"
+#include "raster/shaders/shadow.frag.h"
 
 namespace pb {
 namespace {
@@ -120,6 +121,18 @@ GLuint Programs::ids(const SurfaceVariant& variant) {
   geometry.coverage = variant.coverage;
   geometry.textures[0] = variant.textures[0];
   return find(shaders::kSceneVert, shaders::kIdsFrag, "ids", definesOf(geometry));
+}
+
+// Of a surface that is there everywhere only the shape matters.
+GLuint Programs::shadow(const SurfaceVariant& variant) {
+  SurfaceVariant caster;
+  if (variant.coverage != shading::kAlphaOpaque) {
+    caster.attributes = variant.attributes;
+    caster.coverage = variant.coverage;
+    caster.filter = variant.filter;
+    caster.textures[0] = variant.textures[0];
+  }
+  return find(shaders::kSceneVert, shaders::kShadowFrag, "shadow", definesOf(caster) + define("SHADOW_PASS"));
 }
 
 GLuint Programs::composeLayers() {

@@ -66,6 +66,7 @@ class Programs {
   GLuint ids(const SurfaceVariant& variant);
   GLuint backFaces(const SurfaceVariant& variant);
   GLuint composeLayers();
+  GLuint shadow(const SurfaceVariant& variant);
 
  private:
   GLuint find(const char* vertexShader, const char* fragmentShader, const std::string& name,

@@ -123,6 +123,7 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sn
   Frame frame;
   FrameCounters& counters = frame.stats.counters;
   counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()), wantsLevels(snapshot));
+  frame.times.shadowMs = timed(passTimer, [&] { scenePass->drawShadows(counters); });
   updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
   for (int b = 0; isDynamic() && b < technique.bounces; ++b) iterate(due, passTimer, frame);
   frame.times.finalMs =

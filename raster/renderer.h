@@ -40,6 +40,7 @@ struct FrameCounters {
 // Milliseconds by pass; wall time between glFinish calls on software GL, timer queries on a GPU.
 struct PassTimes {
   std::vector<double> captureMs;  // by bounce iteration
+  double shadowMs = 0.0;          // shadow maps, drawn once a frame
   double prefilterMs = 0.0;       // all bounce iterations
   double finalMs = 0.0;
 };

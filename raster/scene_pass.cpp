@@ -41,6 +41,8 @@ bool isViewedFromOutside(const Bounds& box, const shading::View& view) {
   return glm::distance(glm::clamp(origin, box.lower, box.upper), origin) > reach;
 }
 
+std::string shadowDefines(const Snapshot& snapshot) { return castsShadows(snapshot) ? "#define SHADOWS\n" : ""; }
+
 // Replaces the buffer's contents, and the buffer if `count`, the number of values in it, changes.
 template <class T>
 void write(const gl::Functions& gl, const std::vector<T>& values, std::size_t& count, gl::Buffer& buffer) {
@@ -105,12 +107,52 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
     reflections_.push_back(reflectionOf(technique_, snapshot, instance));
   resources_->showScreens(snapshot.screens);
   uploadInstances();
+  beginShadows();
   uploadLights();
   uploadPasses(passes);
   resources_->bindScene();
   resources_->bindReflection(technique_);
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLightBlock, lights_.id());
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kAreaLightBlock, areaLights_.id());
+}
+
+void ScenePass::beginShadows() {
+  if (!castsShadows(*snapshot_)) return;
+  if (!shadows_) shadows_.emplace(device_.context, device_.limits, technique_.shadowResolution);
+  shadows_->beginFrame(*snapshot_);
+  shadows_->bind();
+}
+
+// Sides that face the light are left out where the other side is not to be seen: rays to the light, too, pass through
+// such surfaces from behind, and what is lit can't shadow itself.
+void ScenePass::drawShadows(FrameCounters& counters) {
+  if (!castsShadows(*snapshot_)) return;
+  gl_.DepthFunc(GL_GREATER);
+  gl_.Disable(GL_CULL_FACE);
+  for (std::size_t f = 0; f < shadows_->faces().size(); ++f) {
+    const gpu::ShadowFace& face = shadows_->faces()[f];
+    const RenderTarget target = shadows_->target(f);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    gl_.Viewport(0, 0, target.widthPx, target.heightPx);
+    gl_.Disable(GL_CULL_FACE);
+    Binder binder(*this, face.view);
+    for (const Draw* draw : shadowCasters(face)) {
+      binder.bind(*draw, draw->shadow, draw->cullsBackFaces ? Faces::back : Faces::both);
+      gl_.DrawElements(GL_TRIANGLES, draw->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+      ++counters.draws;
+      counters.triangles += draw->mesh->indexCount / 3;
+    }
+  }
+}
+
+std::vector<const ScenePass::Draw*> ScenePass::shadowCasters(const gpu::ShadowFace& face) const {
+  const bool isParallel = face.values.x > 0.5f;  // sees the whole scene
+  std::vector<const Draw*> casters;
+  for (const Draw& draw : draws_)
+    if (draw.mesh->indexCount > 0 &&
+        (isParallel || !isOutsideFrustum(snapshot_->instances[draw.instance].worldBounds, face.view)))
+      casters.push_back(&draw);
+  return casters;
 }
 
 void ScenePass::draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
@@ -216,7 +258,7 @@ bool ScenePass::drawsFit(const Snapshot& snapshot) const {
 // order decides which of two coinciding surfaces is seen, and how many fragments pass.
 void ScenePass::buildDraws(const Snapshot& snapshot) {
   const int environmentSize = resources_->filterEnvironment(technique_.filter, device_.programs);
-  const std::string settings = techniqueDefines(technique_);
+  const std::string settings = techniqueDefines(technique_) + shadowDefines(snapshot);
   const std::string environmentLevels = filterDefines(technique_.filter, environmentSize);
   const std::string probeLevels = filterDefines(technique_.filter, technique_.resolution);
   const EnvironmentSource source = environmentSource(snapshot.scene->environment, technique_.textureFilter);
@@ -241,7 +283,8 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
          .cullsBackFaces = cullsBackFaces(material),
          .isClosedGlass = isSolidGlass(material) && !material.doubleSided && isClosed(*instance.mesh),
          .isCapturedFromInside = isCapturedFromInside(technique_, material),
-         .backFaces = hasBackFaces ? device_.programs.backFaces(variant) : 0});
+         .backFaces = hasBackFaces ? device_.programs.backFaces(variant) : 0,
+         .shadow = castsShadows(snapshot) ? device_.programs.shadow(variant) : 0});
     if (hasBackFaces && !backFaces_) backFaces_.emplace(device_.context);
   }
   std::ranges::sort(draws_, {},
@@ -267,7 +310,7 @@ void ScenePass::uploadInstances() {
 }
 
 void ScenePass::uploadLights() {
-  write(gl_, snapshot_->lights, lightCount_, lights_);
+  write(gl_, castsShadows(*snapshot_) ? shadows_->lights() : snapshot_->lights, lightCount_, lights_);
   write(gl_, snapshot_->areaLights, areaLightCount_, areaLights_);
 }
 

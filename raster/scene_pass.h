@@ -8,6 +8,7 @@
 #include "raster/back_faces.h"
 #include "raster/device.h"
 #include "raster/reflection.h"
+#include "raster/shadow_maps.h"
 #include "raster/transparency.h"
 #include "raster/uniform_slots.h"
 
@@ -27,6 +28,9 @@ class ScenePass {
 
   // Uploads what changes from frame to frame: transforms, lights and the views of the frame's passes.
   void beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes);
+
+  // The frame's shadow maps, before what shows them.
+  void drawShadows(FrameCounters& counters);
 
   // The frame's pass number `pass`, without the owners of probe `hiddenProbe` (or kNoProbe). Probes that are marked in
   // mapShown show their cube maps (bound by the caller to gpu::kProbeUnit), the others and the hidden one the
@@ -51,6 +55,7 @@ class ScenePass {
     bool isClosedGlass;         // its back faces are seen from inside only
     bool isCapturedFromInside;  // by its own probe
     GLuint backFaces;           // program that draws what its fragments read; 0 if they read none
+    GLuint shadow;              // program that draws it to shadow maps; 0 if the scene casts no shadows
 
     bool isBlended() const { return variant.coverage == shading::kAlphaBlend; }
   };
@@ -59,6 +64,8 @@ class ScenePass {
 
   void buildDraws(const Snapshot& snapshot);
   bool drawsFit(const Snapshot& snapshot) const;
+  void beginShadows();
+  std::vector<const Draw*> shadowCasters(const gpu::ShadowFace& face) const;
   SurfaceVariant variantOf(const Snapshot& snapshot, const SnapshotInstance& instance) const;
   void uploadInstances();
   void uploadLights();
@@ -91,6 +98,7 @@ class ScenePass {
   gl::Buffer areaLights_;
   std::optional<BackFaces> backFaces_;       // of scenes whose refraction reads them
   std::optional<TransparentLayers> layers_;  // of scenes with blended surfaces
+  std::optional<ShadowMaps> shadows_;        // of scenes that cast shadows
 };
 
 }  // namespace pb

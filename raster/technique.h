@@ -33,6 +33,7 @@ struct Technique {
   ProbeFilter filter = ProbeFilter::ggxPrefiltered;
   GeometryTerm geometryTerm = GeometryTerm::smithCorrelated;
   Coats coats = Coats::nearestProbe;  // what dielectric coats of surfaces without a probe of their own reflect
+  int shadowResolution = 1024;        // texels along the edge of a shadow map's face, for scenes that cast shadows
   ProbeUse probes = ProbeUse::dynamic;
 
   friend bool operator==(const Technique&, const Technique&) = default;

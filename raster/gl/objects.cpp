@@ -168,6 +168,18 @@ Framebuffer makeLayerFramebuffer(const Functions& gl, const Texture& colorLayers
   return framebuffer;
 }
 
+Framebuffer makeDepthFramebuffer(const Functions& gl, const Texture& depthLayers) {
+  Framebuffer framebuffer(gl, createFramebuffer(gl));
+  setDepthLayer(framebuffer, depthLayers, 0);
+  gl.NamedFramebufferDrawBuffer(framebuffer.id(), GL_NONE);
+  requireComplete(gl, framebuffer.id());
+  return framebuffer;
+}
+
+void setDepthLayer(const Framebuffer& framebuffer, const Texture& depthLayers, int layer) {
+  framebuffer.gl().NamedFramebufferTextureLayer(framebuffer.id(), GL_DEPTH_ATTACHMENT, depthLayers.id(), 0, layer);
+}
+
 void setColorLayer(const Framebuffer& framebuffer, const Texture& colorLayers, int layer) {
   framebuffer.gl().NamedFramebufferTextureLayer(framebuffer.id(), GL_COLOR_ATTACHMENT0, colorLayers.id(), 0, layer);
 }

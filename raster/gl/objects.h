@@ -97,6 +97,9 @@ Framebuffer makeFramebuffer(const Functions& gl, const Texture& color, const Tex
 // The same with one layer of an array texture as colour, chosen anew with setColorLayer().
 Framebuffer makeLayerFramebuffer(const Functions& gl, const Texture& colorLayers, const Texture& depth);
 void setColorLayer(const Framebuffer& framebuffer, const Texture& colorLayers, int layer);
+// Depth alone, of one layer of an array texture, chosen anew with setDepthLayer().
+Framebuffer makeDepthFramebuffer(const Functions& gl, const Texture& depthLayers);
+void setDepthLayer(const Framebuffer& framebuffer, const Texture& depthLayers, int layer);
 
 class Query : public Name<&Functions::DeleteQueries> {
  public:

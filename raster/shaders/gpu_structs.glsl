@@ -20,17 +20,26 @@ struct InstanceConstants {
   vec4 volume;        // x metres in a unit of object space (mean of the directions)
 };
 
+// One face of a shadow map.
+struct ShadowFace {
+  View view;    // forward.w is not used
+  vec4 values;  // x 1 if the projection is parallel: then right and down are half of the face's width and height, and y is
+                // the range of depths in metres
+};
+
 // Uniform blocks.
 const int kPassBlock = 0;
 const int kSceneBlock = 1;
 const int kInstanceBlock = 2;
 const int kMaterialBlock = 3;
 const int kLobeBlock = 4;
+const int kShadowPassBlock = 5;
 // Shader storage blocks.
 const int kLightBlock = 0;
 const int kSmoothingGroupBlock = 1;
 const int kAreaLightBlock = 2;
 const int kLayerBlock = 3;
+const int kShadowBlock = 4;
 // Image units.
 const int kLayerHeadImage = 0;
 const int kFilterTargetImage = 1;
@@ -42,5 +51,6 @@ const int kDfgUnit = 3;
 const int kBackFaceUnit = 4;
 const int kEnvironmentLevelsUnit = 5;
 const int kMaterialUnit = 6;
-const int kTextureUnits = 11;
+const int kShadowUnit = 11;
+const int kTextureUnits = 12;
 const int kFilterSourceUnit = kMaterialUnit;  // of the filters of cube maps; draws bind their materials anew

@@ -2,8 +2,8 @@
 // Radiance of a surface towards the viewer.
 //
 // Variants by defines, besides those of the included files: SURFACE_KIND (kSurface*), PROBE_LOOKUP for specular
-// surfaces that show their probe's cube map instead of the environment, ALPHA_MASK for surfaces with holes, and ALPHA_BLEND
-// for those that cover partly and are composed later (layers.glsl).
+// surfaces that show their probe's cube map instead of the environment, ALPHA_MASK for surfaces with holes, ALPHA_BLEND for
+// those that cover partly and are composed later (layers.glsl), and SHADOWS if lights have shadow maps.
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
 #include "raster/shaders/surface_fetch.glsl"
@@ -32,13 +32,23 @@ layout(location = 0) out vec4 radiance;
 
 #include "raster/shaders/radiance_lookup.glsl"
 
+#ifdef SHADOWS
+#include "raster/shaders/shadow_lookup.glsl"
+#endif
+
 // Emission, light of the lights and ambient light: the twin of pb::localRadiance() in scenes/snapshot.h.
 vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
   vec3 irradiance = vec3(0.0f);
   vec3 highlights = vec3(0.0f);
   int count = int(pass.lights.x);
+#ifdef SHADOWS
+  vec3 triangle = triangleNormal();
+#endif
   for (int i = 0; i < count; ++i) {
     vec3 fromLight = lightIrradianceOn(lights[i], s.position, s.normal);
+#ifdef SHADOWS
+    fromLight *= lightVisibility(lights[i], s.position, triangle);
+#endif
     irradiance += fromLight;
 #ifdef ROUGH_LOBE
     highlights += fromLight * specularBrdf(s, toViewer, lightDirection(lights[i], s.position), kFresnelLaw, kGeometry);

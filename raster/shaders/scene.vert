@@ -1,6 +1,10 @@
 #version 450 core
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
+#ifdef SHADOW_PASS
+#include "raster/shaders/shadow_projection.glsl"
+layout(std140, binding = kShadowPassBlock) uniform ShadowPassBlock { ShadowFace shadowFace; };
+#endif
 
 layout(location = 0) in vec3 objectPosition;
 layout(location = 1) in vec3 objectNormal;
@@ -39,5 +43,9 @@ void main() {
 #ifdef REFRACTION_TWO_INTERFACE
   inwardDistance = objectInwardDistance * length(mat3(m) * objectNormal);
 #endif
+#ifdef SHADOW_PASS
+  gl_Position = shadowClipPosition(shadowFace, worldPosition);
+#else
   gl_Position = clipFromWorldPosition(pass.view, worldPosition);
+#endif
 }

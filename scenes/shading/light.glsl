@@ -8,7 +8,7 @@ struct Light {
   vec4 positionKind;    // xyz world position; w: kLight*
   vec4 directionRange;  // xyz unit vector along which the light shines; w: range in metres, 0 for none
   vec4 intensity;       // rgb
-  vec4 cone;            // x scale, y offset of the spot's angular falloff
+  vec4 cone;            // x scale, y offset of the spot's angular falloff; z w are the renderer's
 };
 
 // Unit vector from p towards the light.
