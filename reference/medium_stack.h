@@ -10,16 +10,20 @@
 
 namespace pb {
 
-// The inside of a refractive object.
+// The inside of a refractive object, or the vacuum outside of everything. Trivial, so that a path's stack costs nothing
+// until it is used.
 struct Medium {
-  int instance;  // -1: outside of everything, vacuum
-  int node;      // of the instance
-  int material;
-  float ior;             // at 587.6 nm
-  float dispersion;      // 20 / Abbe number
-  glm::vec3 absorption;  // 1/m
+  int instance;              // -1: vacuum
+  int node;                  // of the instance
+  const Material* material;  // null: vacuum
+
+  float ior() const { return material == nullptr ? 1.0f : material->constants.kind.y; }         // at 587.6 nm
+  float dispersion() const { return material == nullptr ? 0.0f : material->constants.kind.w; }  // 20 / Abbe number
+  glm::vec3 absorption() const {                                                                // 1/m
+    return material == nullptr ? glm::vec3(0.0f) : glm::vec3(material->constants.absorption);
+  }
 };
-inline constexpr Medium kVacuum{-1, -1, -1, 1.0f, 0.0f, glm::vec3(0.0f)};
+inline constexpr Medium kVacuum{-1, -1, nullptr};
 
 // The media around a point, the last one entered innermost: where objects overlap, the one entered last fills the
 // overlap. No heap; of more than kCapacity nested objects the outermost is forgotten.

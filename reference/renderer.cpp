@@ -90,7 +90,7 @@ struct Rendering {
   PrimaryRays primaries;
 
   PathResult sample(const Ray& ray, Sampler& sampler) const {
-    return tracePath(scene, ray, primaries.conePerMetre(), settings.depth, sampler);
+    return tracePath(scene, ray, primaries.conePerMetre(), settings, sampler);
   }
 
   // Of sample `i` of a half at primary point (column, row). Each half of a pixel is one sequence: a point takes
@@ -203,8 +203,7 @@ glm::vec3 ReferenceScene::radiance(glm::vec3 origin, glm::vec3 direction, const 
                                    std::uint64_t sample) const {
   checkDepth(settings);
   Sampler sampler(settings.seed, 0, sample);
-  return tracePath(impl_->litWithout(settings.hiddenInstances), {origin, direction}, 0.0f, settings.depth, sampler)
-      .radiance;
+  return tracePath(impl_->litWithout(settings.hiddenInstances), {origin, direction}, 0.0f, settings, sampler).radiance;
 }
 
 }  // namespace pb
