@@ -174,4 +174,10 @@ AGREEMENT_CASE(51, vec4(coatAlbedo(makeTestSurface(kSurfaceGlossy, a, b), surfac
 AGREEMENT_CASE(52, vec4(specularBrdf(makeTestSurface(kSurfaceGlossy, a, vec4(0.5f, 0.5f, 1.0f, b.w)), safeNormalize(upperVector(a)), safeNormalize(upperVector(b)), kExactLaw, kGeometrySmithCorrelated), 0.0f))
 AGREEMENT_CASE(53, vec4(specularWeights(makeTestSurface(kSurfaceGlossy, a, b), b.w, 1.5f, kSchlickLaw).reflection, float(isThinWalled(makeTestSurface(kSurfaceGlass, a, b)))))
 AGREEMENT_CASE(54, vec4(makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).alpha, makeSurface(makeMaterial(a), vec3(b), unitVector(b), a, b, a, b, a).opacity, ggxAlpha(0.04f * a.x), ggxAlpha(a.y)))
+AGREEMENT_CASE(55, vec4(smoothUnion(a.x, a.y, 0.1f + a.z), subtraction(a.x, b.x), boxDistance(3.0f * vec3(a) - vec3(1.5f), vec3(b)), torusDistance(3.0f * vec3(a) - vec3(1.5f), b.x, b.y)))
+AGREEMENT_CASE(56, vec4(twisted(3.0f * vec3(a) - vec3(1.5f), 2.0f * b.x), rippleHeight(3.0f * vec3(a) - vec3(1.5f), 6.28318531f * b.y)))
+AGREEMENT_CASE(57, vec4(screenRadiance(kScreenMelt, vec2(a.x, a.y), 1.33333333f, 6.28318531f * b.x), 0.0f))
+AGREEMENT_CASE(58, vec4(screenRadiance(kScreenTwist, vec2(a.x, a.y), 1.33333333f, 6.28318531f * b.x), 0.0f))
+AGREEMENT_CASE(59, vec4(screenRadiance(kScreenRipples, vec2(a.x, a.y), 1.33333333f, 6.28318531f * b.x), 0.0f))
+AGREEMENT_CASE(60, vec4(screenRadiance(kScreenRings, vec2(a.x, a.y), 1.33333333f, 6.28318531f * b.x), 0.0f))
 AGREEMENT_CASES_END
