@@ -224,8 +224,9 @@ class Runner {
     const std::optional<double> limit = c_.suite.reference.maxNoise;
     std::vector<std::string> sentences;
     for (const NoisyReference& noisy : findNoisyReferences(cells, limit))
-      sentences.push_back(fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at {} samples",
-                                      *limit, noisy.scene, noisy.frame, noisy.noise, mostSpp(c_.suite.reference)));
+      sentences.push_back(
+          fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at up to {} samples", *limit,
+                      noisy.scene, noisy.frame, noisy.noise, mostSpp(c_.suite.reference)));
     return sentences;
   }
 

@@ -76,7 +76,7 @@ fs::path defaultStoreFolder() {
 
 std::string ReferenceStore::describe(const ReferenceRequest& request) {
   const ReferenceSettings& settings = request.settings;
-  return fmt::format(
+  std::string text = fmt::format(
       "snapshot {:016x} size {}x{} samples {} spp {} depth {} diffuse {} {} seed {} sampling {} hidden [{}] integrator "
       "{} embree {}",
       contentHash(*request.snapshot), request.widthPx, request.heightPx,
@@ -85,6 +85,10 @@ std::string ReferenceStore::describe(const ReferenceRequest& request) {
       settings.diffuseDepth ? std::to_string(*settings.diffuseDepth) : "unlimited", settings.seed,
       settings.sampling == Sampling::sobol ? "sobol" : "independent", fmt::join(settings.hiddenInstances, ","),
       kIntegratorVersion, embreeVersion());
+  if (request.refinement)
+    text += fmt::format(" pass {} of max_noise {} spp at most {}", request.refinement->pass,
+                        request.refinement->goal.maxNoise, request.refinement->goal.maxSpp);
+  return text;
 }
 
 fs::path ReferenceStore::entry(const ReferenceRequest& request) const { return folder_ / hexHash(describe(request)); }

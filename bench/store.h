@@ -7,14 +7,24 @@
 #include <optional>
 #include <string>
 
+#include "reference/adaptive.h"
 #include "reference/renderer.h"
 
 namespace pb {
 
+// Picture number `pass` (from 1 on) of a reference that adds samples until it is quiet enough. Its sample map follows
+// from the passes before.
+struct Refinement {
+  int pass;
+  AdaptiveGoal goal;
+  SampleMap samples;
+};
+
 struct ReferenceRequest {
   std::shared_ptr<const Snapshot> snapshot;
   int widthPx = 0, heightPx = 0;
-  ReferenceSettings settings;
+  ReferenceSettings settings;  // of the first picture, also in those that refine it
+  std::optional<Refinement> refinement{};
 };
 
 // $XDG_CACHE_HOME/probebench/references, else ~/.cache/probebench/references; an environment Error if neither is set.

@@ -41,8 +41,8 @@ struct TruthSettings {
   std::optional<int> depth;  // specular bounces; none: converged
   DiffuseTransport diffuse = DiffuseTransport::local;
   std::optional<int> diffuseDepth{};  // diffuse bounces of traced light; none: unlimited
-  int spp = 16;                     // samples per primary point to begin with
-  std::optional<double> maxNoise;   // relMSE of the noise floor; spp is doubled until it is met
+  int spp = 16;                       // samples per primary point to begin with
+  std::optional<double> maxNoise;     // relMSE of the noise floor; samples are added until it is met
 };
 
 struct CostSettings {

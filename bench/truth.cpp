@@ -51,8 +51,12 @@ ReferenceImage TruthMaker::obtain(const ReferenceRequest& request, const Referen
   std::string warning;
   if (std::optional<ReferenceImage> stored = store_.load(request, warning)) return *std::move(stored);
   if (!warning.empty()) warnings.push_back(warning);
-  ReferenceImage image = scene.render(request.snapshot->camera, request.widthPx, request.heightPx, request.settings,
-                                      &interruptRequested());
+  ReferenceSettings settings = request.settings;
+  // Passes are independent of each other: a sample map and the samples that it asks for must not depend on each other.
+  if (request.refinement) settings.seed += static_cast<std::uint64_t>(request.refinement->pass);
+  ReferenceImage image =
+      scene.render(request.snapshot->camera, request.widthPx, request.heightPx, settings, &interruptRequested(),
+                   request.refinement ? &request.refinement->samples : nullptr);
   store_.save(request, image);
   return image;
 }
@@ -66,8 +70,14 @@ ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapsho
   request.settings.diffuseDepth = settings_.diffuseDepth;
   request.settings.spp = settings_.spp;
   ReferenceImage image = obtain(request, scene, warnings);
-  while (settings_.maxNoise && noiseOf(image) > *settings_.maxNoise && request.settings.spp < mostSpp(settings_)) {
-    request.settings.spp *= 2;
+  if (!settings_.maxNoise) return image;
+  const AdaptiveGoal goal{*settings_.maxNoise, mostSpp(settings_)};
+  SampleMap samples(image_.widthPx, image_.heightPx, settings_.spp);
+  for (int pass = 1; noiseOf(image) > goal.maxNoise; ++pass) {
+    SampleMap planned = planSamples(image, samples, goal);
+    if (planned == samples) break;  // at the limit
+    samples = std::move(planned);
+    request.refinement = Refinement{pass, goal, samples};
     image = obtain(request, scene, warnings);
   }
   return image;

@@ -26,7 +26,7 @@ struct Truth {
 // Noise floor of the mean of two independent halves, ((A-B)/2)^2, as "mse" and "relmse".
 MetricValues computeFloor(const Image& mean, const Image& halfA, const Mask* mask = nullptr);
 
-// Samples at which a reference that misses max_noise is given up: spp doubled as long as kMaxSpp allows.
+// Samples per primary point that a pixel gets at most for max_noise: spp doubled as long as kMaxSpp allows.
 int mostSpp(const TruthSettings& settings);
 
 class TruthMaker {
@@ -38,8 +38,9 @@ class TruthMaker {
              RasterIds rasterIds)
       : store_(store), image_(image), settings_(settings), rasterIds_(std::move(rasterIds)) {}
 
-  // Takes the reference from the store or renders it and stores it, doubling the samples until the noise is at most
-  // max_noise or mostSpp() is reached. `warnings` gets what went wrong with stored references.
+  // Takes the reference from the store or renders it and stores it. With max_noise a picture that is noisier only tells
+  // where a new one, of other random numbers, needs how many samples (planSamples()), until one is quiet enough or all
+  // pixels have mostSpp(). `warnings` gets what went wrong with stored references.
   std::shared_ptr<const Truth> make(std::shared_ptr<const Snapshot> snapshot, double exposure,
                                     std::vector<std::string>& warnings) const;
 

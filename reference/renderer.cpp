@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <mutex>
 
 #include "reference/embree_scene.h"
@@ -88,6 +89,7 @@ struct Rendering {
   TracedScene scene;
   const ReferenceSettings& settings;
   PrimaryRays primaries;
+  const SampleMap* samples;  // null: settings.spp everywhere
 
   PathResult sample(const Ray& ray, Sampler& sampler) const {
     return tracePath(scene, ray, primaries.conePerMetre(), settings, sampler);
@@ -96,29 +98,29 @@ struct Rendering {
   // Of sample `i` of a half at primary point (column, row). Each half of a pixel is one sequence: a point takes
   // consecutive members, and the points follow each other in Morton's order, so that squares of points, too, are
   // stratified.
-  Sampler sampler(int column, int row, int half, int i) const {
+  Sampler sampler(int column, int row, int spp, int half, int i) const {
     const std::uint32_t point = primaries.index(column, row);
     const auto h = static_cast<std::uint32_t>(half), sample = static_cast<std::uint32_t>(i);
     if (settings.sampling == Sampling::independent) return {settings.seed, point, std::uint64_t{2} * sample + h};
     const int n = settings.samplesPerAxis;
-    const std::uint32_t samplesOfPoint = std::bit_ceil(static_cast<std::uint32_t>(settings.spp / 2));
+    const std::uint32_t samplesOfPoint = std::bit_ceil(static_cast<std::uint32_t>(spp / 2));
     return Sampler::sobol(settings.seed, primaries.pixelIndex(column / n, row / n, n), h,
                           mortonCode(column % n, row % n) * samplesOfPoint + sample);
   }
 
   // All samples of one primary point; returns the number of rays.
-  std::int64_t addPoint(int column, int row, PixelBatches& pixel) const {
+  std::int64_t addPoint(int column, int row, int spp, PixelBatches& pixel) const {
     const Ray ray = primaries.ray(column, row);
-    Sampler firstSampler = sampler(column, row, 0, 0);
+    Sampler firstSampler = sampler(column, row, spp, 0, 0);
     const PathResult first = sample(ray, firstSampler);
     std::int64_t rays = first.rays;
     if (!firstSampler.used()) {
       pixel.addPoint(first.radiance);
       return rays;
     }
-    pixel.addPoint(settings.spp, [&](int half, int i) {
+    pixel.addPoint(spp, [&](int half, int i) {
       if (half == 0 && i == 0) return first.radiance;
-      Sampler next = sampler(column, row, half, i);
+      Sampler next = sampler(column, row, spp, half, i);
       const PathResult path = sample(ray, next);
       rays += path.rays;
       return path.radiance;
@@ -128,10 +130,11 @@ struct Rendering {
 
   std::int64_t addPixel(int x, int y, std::vector<Image>& batches) const {
     const int n = settings.samplesPerAxis;
+    const int spp = samples != nullptr ? (*samples)(x, y) : settings.spp;
     PixelBatches pixel(static_cast<int>(batches.size()));
     std::int64_t rays = 0;
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) rays += addPoint(x * n + i, y * n + j, pixel);
+      for (int i = 0; i < n; ++i) rays += addPoint(x * n + i, y * n + j, spp, pixel);
     for (std::size_t b = 0; b < batches.size(); ++b) batches[b](x, y) = pixel.batch(static_cast<int>(b));
     return rays;
   }
@@ -165,13 +168,15 @@ ReferenceScene::ReferenceScene(std::shared_ptr<const Snapshot> snapshot)
 ReferenceScene::~ReferenceScene() = default;
 
 ReferenceImage ReferenceScene::render(const shading::View& view, int widthPx, int heightPx,
-                                      const ReferenceSettings& settings, const std::atomic<bool>* cancelled) const {
+                                      const ReferenceSettings& settings, const std::atomic<bool>* cancelled,
+                                      const SampleMap* samples) const {
   checkSize(widthPx, heightPx, settings.samplesPerAxis);
   checkSampling(settings);
   checkDepth(settings);
+  assert(samples == nullptr || (samples->width() == widthPx && samples->height() == heightPx));
   const int n = settings.samplesPerAxis;
   const Rendering rendering{impl_->litWithout(settings.hiddenInstances), settings,
-                            PrimaryRays(view, widthPx * n, heightPx * n)};
+                            PrimaryRays(view, widthPx * n, heightPx * n), samples};
   ReferenceImage image;
   image.batches.assign(static_cast<std::size_t>(std::min(settings.spp, kMaxBatches)), Image(widthPx, heightPx));
   std::atomic<std::int64_t> rays = 0;  // of whole numbers: the order of adding doesn't matter

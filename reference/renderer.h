@@ -25,8 +25,8 @@ struct ReferenceSettings {
   int spp = 16;                // samples of the other dimensions per primary point, even, at least 2
   std::optional<int> depth{};  // K: specular hits before a path takes the environment, unoccluded; none: converged
   DiffuseTransport diffuse = DiffuseTransport::local;
-  std::optional<int> diffuseDepth{};  // N, of traced paths: diffuse bounces after which diffuse surfaces only get direct
-                                      // light and the occluded sky; none: unlimited
+  std::optional<int> diffuseDepth{};  // N, of traced paths: diffuse bounces after which diffuse surfaces only get
+                                      // direct light and the occluded sky; none: unlimited
   std::uint64_t seed = 1;
   Sampling sampling = Sampling::sobol;
   std::vector<int> hiddenInstances{};  // left out of the scene for every ray
@@ -40,6 +40,9 @@ inline constexpr int kIntegratorVersion = 2;
 // Independent batches of samples (at most kMaxBatches, min(spp, kMaxBatches) of them, an even number), each the mean of
 // its samples.
 inline constexpr int kMaxBatches = 16;
+
+// Samples per primary point, by pixel.
+using SampleMap = Grid<int>;
 
 struct ReferenceImage {
   std::vector<Image> batches;
@@ -58,9 +61,10 @@ class ReferenceScene {
   ReferenceScene& operator=(const ReferenceScene&) = delete;
 
   // Any view: the snapshot's camera, or a cube face. Called from any thread; uses TBB inside.
-  // Throws Error(Failure::interrupted) soon after `cancelled` (if given) becomes true.
+  // Throws Error(Failure::interrupted) soon after `cancelled` (if given) becomes true. `samples` (if given) takes the
+  // place of settings.spp, of which its numbers must be multiples.
   ReferenceImage render(const shading::View& view, int widthPx, int heightPx, const ReferenceSettings& settings,
-                        const std::atomic<bool>* cancelled = nullptr) const;
+                        const std::atomic<bool>* cancelled = nullptr, const SampleMap* samples = nullptr) const;
 
   // What each primary sample shows: (width * S) x (height * S).
   Grid<SampleId> renderIds(const shading::View& view, int widthPx, int heightPx, int samplesPerAxis) const;

@@ -65,7 +65,7 @@ TEST(ReferenceStore, KeyChangesWithEverythingThatChangesThePicture) {
   EXPECT_TRUE(add(base));
   EXPECT_FALSE(add(smallRequest()));  // the same scene loaded and evaluated again
   EXPECT_TRUE(add(smallRequest(3)));
-  std::vector<ReferenceRequest> changed(7, base);
+  std::vector<ReferenceRequest> changed(11, base);
   changed[0].widthPx = 32;
   changed[1].heightPx = 32;
   changed[2].settings.samplesPerAxis = 1;
@@ -73,6 +73,10 @@ TEST(ReferenceStore, KeyChangesWithEverythingThatChangesThePicture) {
   changed[4].settings.depth = 2;
   changed[5].settings.seed = 2;
   changed[6].settings.hiddenInstances = {0};
+  changed[7].settings.sampling = Sampling::independent;
+  changed[8].refinement = Refinement{1, {1e-5, 64}, {}};
+  changed[9].refinement = Refinement{2, {1e-5, 64}, {}};
+  changed[10].refinement = Refinement{1, {2e-5, 128}, {}};
   for (const ReferenceRequest& request : changed) EXPECT_TRUE(add(request)) << ReferenceStore::describe(request);
 }
 
