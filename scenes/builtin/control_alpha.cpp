@@ -21,14 +21,15 @@ Texture makeLeaves() {
       const float u = 2.0f * glm::two_pi<float>() * (static_cast<float>(x) + 0.5f) / kSize;
       const float v = 2.0f * glm::two_pi<float>() * (static_cast<float>(y) + 0.5f) / kSize;
       const float leaf = std::sin(u) * std::sin(v);
-      texels(x, y) = {0.25f + 0.2f * std::sin(u), 0.6f, 0.2f + 0.1f * std::cos(v), 0.5f + 0.5f * leaf};
+      texels(x, y) = roundedToBytes({0.25f + 0.2f * std::sin(u), 0.6f, 0.2f + 0.1f * std::cos(v), 0.5f + 0.5f * leaf});
     }
   return makeTexture("leaves", std::move(texels));
 }
 
 Texture makeChecker() {
   ImageRgba texels(2, 2);
-  for (int i = 0; i < 4; ++i) texels(i % 2, i / 2) = glm::vec4(glm::vec3(i == 0 || i == 3 ? 0.7f : 0.25f), 1.0f);
+  for (int i = 0; i < 4; ++i)
+    texels(i % 2, i / 2) = roundedToBytes(glm::vec4(glm::vec3(i == 0 || i == 3 ? 0.7f : 0.25f), 1.0f));
   return makeTexture("checker", std::move(texels));
 }
 

@@ -114,7 +114,7 @@ const std::array<Placement, 12> kPlacements = {{
     {{1.15f, 1.14f, 0.05f}, 40.0f, 0.0f, 0.0f},
     {{-0.45f, 1.94f, -0.1f}, -28.0f, 0.0f, 5.0f},
     {{-1.5f, 0.47f, 1.35f}, 40.0f, 0.0f, 90.0f},
-    {{1.35f, 0.62f, 1.45f}, -25.0f, -68.0f, 0.0f},
+    {{1.35f, 0.66f, 1.45f}, -25.0f, -68.0f, 0.0f},
     {{0.6f, 1.94f, 0.0f}, 30.0f, 0.0f, -4.0f},
     {{0.1f, 0.55f, 1.5f}, 10.0f, -40.0f, 20.0f},
 }};
@@ -165,7 +165,7 @@ Texture makeFloorBoards() {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 8; ++x) {
       const float tone = 0.8f + 0.2f * static_cast<float>((x * 5) % 8) / 8.0f;
-      texels(x, y) = glm::vec4(tone * glm::vec3(0.42f, 0.28f, 0.17f), 1.0f);
+      texels(x, y) = roundedToBytes(glm::vec4(tone * glm::vec3(0.42f, 0.28f, 0.17f), 1.0f));
     }
   return makeTexture("boards", std::move(texels));
 }

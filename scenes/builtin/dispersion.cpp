@@ -143,7 +143,8 @@ void addSlits(Scene& scene) {
 
 Texture makeTiles() {
   ImageRgba texels(2, 2);
-  for (int i = 0; i < 4; ++i) texels(i % 2, i / 2) = glm::vec4(glm::vec3(i == 0 || i == 3 ? 0.55f : 0.3f), 1.0f);
+  for (int i = 0; i < 4; ++i)
+    texels(i % 2, i / 2) = roundedToBytes(glm::vec4(glm::vec3(i == 0 || i == 3 ? 0.55f : 0.3f), 1.0f));
   return makeTexture("tiles", std::move(texels));
 }
 

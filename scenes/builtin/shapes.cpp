@@ -157,6 +157,12 @@ int addTexture(Scene& scene, Texture texture) {
   return static_cast<int>(scene.textures.size()) - 1;
 }
 
+glm::vec4 roundedToBytes(const glm::vec4& color) {
+  const auto rounded = [](float x) { return std::round(255.0f * x) / 255.0f; };
+  const auto channel = [&](float x) { return shading::srgbDecode(rounded(shading::srgbEncode(x))); };
+  return {channel(color.x), channel(color.y), channel(color.z), rounded(color.w)};
+}
+
 void addCamera(Scene& scene, std::string name, glm::vec3 eye, glm::vec3 target, float verticalFovRadians, float zNear) {
   Node node;
   node.name = name;

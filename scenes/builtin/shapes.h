@@ -34,6 +34,9 @@ int addInstance(Scene& scene, std::string name, std::shared_ptr<const Mesh> mesh
 int addMaterial(Scene& scene, Material material);
 int addTexture(Scene& scene, Texture texture);
 
+// The nearest colour (and alpha) of 8 bits, sRGB-encoded: what an exported file holds without loss.
+glm::vec4 roundedToBytes(const glm::vec4& color);
+
 // A camera at `eye` that looks at `target`, +Y up.
 void addCamera(Scene& scene, std::string name, glm::vec3 eye, glm::vec3 target, float verticalFovRadians, float zNear);
 
