@@ -252,6 +252,19 @@ TEST(Depth, OfARoughMetal_ShowsTheEnvironmentUnoccluded) {
   EXPECT_LT(open.standardError, 5e-3);
 }
 
+// What a probe leaves out of its captures gives no light to rough surfaces either.
+TEST(HiddenLamp, IsDarkForRoughMetal) {
+  Scene scene = makeSceneUnder(makeConstantEnvironment(glm::vec3(0.0f)));
+  add(scene, makeFloor(5.0f), makeGlossy(0.6f, 1.0f, glm::vec3(1.0f)));
+  const int lamp = add(scene, makeSquareMesh({0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 0.5f), makeEmitter(glm::vec3(2.0f)));
+  const ReferenceScene reference(finish(std::move(scene)));
+  const glm::vec3 origin(0.0f, 0.5f, 0.7f), direction(0.0f, -0.5f, -0.5f);
+  EXPECT_GT(statisticsOf(samplesAlong(reference, origin, direction, {}, 200)).mean, 0.1);
+  ReferenceSettings settings;
+  settings.hiddenInstances = {lamp};
+  EXPECT_EQ(statisticsOf(samplesAlong(reference, origin, direction, settings, 200)).mean, 0.0);
+}
+
 // Sum over a grid of primary rays, each with samples of its own.
 Statistics sumOver(const TracedScene& scene, const ReferenceSettings& settings, int count) {
   std::vector<double> values;
