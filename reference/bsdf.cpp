@@ -18,7 +18,7 @@ constexpr float kLowestViewer = 1e-3f;
 // Relative indices nearer to 1 neither reflect (F < 3e-9) nor spread light, and leave no half vector to compute with.
 constexpr float kMatchedIor = 1e-4f;
 
-bool isMatched(const shading::Surface& s, const Refraction& refraction) {
+bool isMatched(const shading::Surface& s, const InterfaceIor& refraction) {
   if (s.kind != shading::kSurfaceGlass || shading::isThinWalled(s)) return false;
   const glm::vec3 difference = glm::abs(refraction.relativeIor - 1.0f);
   return std::max({difference.x, difference.y, difference.z}) < kMatchedIor;
@@ -63,7 +63,7 @@ int chooseChannel(glm::vec3& weight, float u) {
 
 float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
-Bsdf::Bsdf(const shading::Surface& surface, const glm::vec3& toViewer, const Refraction& refraction,
+Bsdf::Bsdf(const shading::Surface& surface, const glm::vec3& toViewer, const InterfaceIor& refraction,
            DiffuseTransport diffuse)
     : s_(surface),
       refraction_(refraction),

@@ -23,8 +23,8 @@ namespace pb {
 // Rec.709.
 float luminance(const glm::vec3& c);
 
-// Refraction at a surface, seen along the path.
-struct Refraction {
+// The indices of refraction on both sides of a surface, seen along the path.
+struct InterfaceIor {
   glm::vec3 relativeIor{1.0f};  // n behind over n before, by channel
   int channel = -1;             // the only one that the path carries; -1: all
 
@@ -56,7 +56,7 @@ struct LobeValues {
 class Bsdf {
  public:
   // Under local transport the diffuse lobe is left out: it needs no rays. The surface must outlive this object.
-  Bsdf(const shading::Surface& surface, const glm::vec3& toViewer, const Refraction& refraction,
+  Bsdf(const shading::Surface& surface, const glm::vec3& toViewer, const InterfaceIor& refraction,
        DiffuseTransport diffuse);
 
   // Draws random numbers only where there is more than one way to go. nullopt: the path ends here.
@@ -82,7 +82,7 @@ class Bsdf {
   float visibleNormalPdf(float NoH, float VoH) const;
 
   const shading::Surface& s_;
-  Refraction refraction_;
+  InterfaceIor refraction_;
   bool matched_;  // refracts between equal media: no interface
   bool rough_;
   shading::Frame frame_;  // around the shading normal; of spread lobes only

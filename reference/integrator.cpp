@@ -192,7 +192,7 @@ class Path {
     return {media_.contains(medium) ? media_.innermost() : medium, behind.innermost()};
   }
 
-  Refraction refractionAt(const Interface& interface) const {
+  InterfaceIor refractionAt(const Interface& interface) const {
     return {iorOf(interface.behind, channel_) / iorOf(interface.before, channel_), channel_};
   }
 
