@@ -42,6 +42,7 @@ BackFaces::Target& BackFaces::targetOf(int widthPx, int heightPx) {
   const auto [found, isNew] = targets_.try_emplace({widthPx, heightPx});
   Target& target = found->second;
   if (!isNew) return target;
+  checkBackFacesFit(limits_, widthPx, heightPx);
   const gl::Functions& gl = context_.functions();
   target.surface =
       gl::makeTexture(gl, {.target = GL_TEXTURE_2D, .format = GL_RGBA32F, .width = widthPx, .height = heightPx});

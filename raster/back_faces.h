@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "raster/gl/objects.h"
+#include "raster/limits.h"
 
 namespace pb {
 
@@ -13,7 +14,7 @@ namespace pb {
 // One texture for each size of target, made when first asked for.
 class BackFaces {
  public:
-  explicit BackFaces(gl::Context& context) : context_(context) {}
+  BackFaces(gl::Context& context, const DeviceLimits& limits) : context_(context), limits_(limits) {}
 
   // As long as it lives, draws go to the target and the farthest surface stays. Then they go where they went before,
   // and read the target.
@@ -33,7 +34,7 @@ class BackFaces {
     GLboolean scissorsBefore_ = GL_FALSE;
   };
 
-  // The emptied target of that size.
+  // The emptied target of that size. Throws an input Error when it would not fit the device.
   Drawing beginDraws(int widthPx, int heightPx);
 
  private:
@@ -45,6 +46,7 @@ class BackFaces {
   Target& targetOf(int widthPx, int heightPx);
 
   gl::Context& context_;
+  DeviceLimits limits_;
   std::map<std::pair<int, int>, Target> targets_;
 };
 

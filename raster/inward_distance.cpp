@@ -1,11 +1,10 @@
 #include "raster/inward_distance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <map>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -130,16 +129,6 @@ Triangle triangleOf(const Mesh& mesh, std::size_t t) {
   return {p, mesh.positions[mesh.indices[3 * t + 1]] - p, mesh.positions[mesh.indices[3 * t + 2]] - p};
 }
 
-// Number of each vertex's position, the same for equal positions.
-std::vector<std::uint32_t> weldedPositions(const Mesh& mesh) {
-  std::map<std::array<float, 3>, std::uint32_t> numbers;
-  std::vector<std::uint32_t> welded;
-  welded.reserve(mesh.positions.size());
-  for (const vec3& p : mesh.positions)
-    welded.push_back(numbers.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(numbers.size())).first->second);
-  return welded;
-}
-
 }  // namespace
 
 std::vector<float> inwardDistances(const Mesh& mesh) {
@@ -161,17 +150,6 @@ std::vector<float> inwardDistances(const Mesh& mesh) {
   }
   for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= std::max(corners[v], 1.0f);
   return sums;
-}
-
-bool isClosed(const Mesh& mesh) {
-  const std::vector<std::uint32_t> welded = weldedPositions(mesh);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;  // how much more often run forwards than backwards
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-    const std::uint32_t a = welded[mesh.indices[i]], b = welded[mesh.indices[next]];
-    if (a != b) edges[std::minmax(a, b)] += a < b ? 1 : -1;
-  }
-  return std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
 }
 
 }  // namespace pb

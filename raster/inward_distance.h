@@ -14,8 +14,4 @@ namespace pb {
 // edges.
 std::vector<float> inwardDistances(const Mesh& mesh);
 
-// Whether every edge of every triangle is shared with one triangle that runs along it the other way, vertices at the
-// same position counting as one: seen from outside, such a mesh never shows a back face.
-bool isClosed(const Mesh& mesh);
-
 }  // namespace pb

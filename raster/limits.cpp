@@ -67,6 +67,11 @@ void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int s
   checkBytes(limits, imageBytes(widthPx, heightPx, samplesPerAxis), "the image's samples");
 }
 
+void checkBackFacesFit(const DeviceLimits& limits, int widthSamples, int heightSamples) {
+  // Both are RGBA32F with depth.
+  checkBytes(limits, 2 * imageBytes(widthSamples, heightSamples, 1), "the image's samples and the back faces of glass");
+}
+
 void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, bool filtered, int widthPx,
                     int heightPx, int samplesPerAxis) {
   if (technique.probes == ProbeUse::environmentOnly || probes == 0) return;

@@ -20,11 +20,15 @@ struct DeviceLimits {
 // Throws an input Error when a texture or the environment is too large for the device, or all together.
 void checkSceneFits(const DeviceLimits& limits, const Scene& scene);
 
-// Colour memory of the cube maps of `probes` probes; with what the technique's filter takes if rough lobes look them up.
+// Colour memory of the cube maps of `probes` probes; with what the technique's filter takes if rough lobes look them
+// up.
 std::int64_t probeBytes(const Technique& technique, int probes, bool filtered);
 
 // Throws an input Error that names both numbers when the final image exceeds the device.
 void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int samplesPerAxis);
+
+// The same for a picture of that many samples and the back faces behind it (raster/back_faces.h).
+void checkBackFacesFit(const DeviceLimits& limits, int widthSamples, int heightSamples);
 
 // The same for the cube maps with their depth and the final image together.
 void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, bool filtered, int widthPx,

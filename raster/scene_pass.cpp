@@ -1,14 +1,15 @@
 #include "raster/scene_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <tuple>
 
 #include "raster/culling.h"
-#include "raster/inward_distance.h"
 #include "raster/refraction.h"
+#include "scenes/closed_mesh.h"
 
 namespace pb {
 namespace {
@@ -31,6 +32,11 @@ GLenum frontFace(const shading::View& view, bool mirrored) {
 // The reference sees glass from inside, too; elsewhere back faces exist only on double-sided materials.
 bool cullsBackFaces(const Material& material) {
   return !material.doubleSided && material.constants.kind.x != shading::kSurfaceGlass;
+}
+
+bool isClosed(const Mesh& mesh) {
+  const std::array meshes = {&mesh};
+  return boundaryOf(meshes) == Boundary::closed;
 }
 
 // Whether no point of the near plane is inside of the box.
@@ -285,7 +291,7 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
          .isCapturedFromInside = isCapturedFromInside(technique_, material),
          .backFaces = hasBackFaces ? device_.programs.backFaces(variant) : 0,
          .shadow = castsShadows(snapshot) ? device_.programs.shadow(variant) : 0});
-    if (hasBackFaces && !backFaces_) backFaces_.emplace(device_.context);
+    if (hasBackFaces && !backFaces_) backFaces_.emplace(device_.context, device_.limits);
   }
   std::ranges::sort(draws_, {},
                     [](const Draw& d) { return std::tuple(d.isBlended(), d.variant, d.material, d.instance); });
