@@ -42,6 +42,8 @@ std::uint64_t visibleContentHash(const Snapshot& snapshot, int probe) {
     mixIn(hash, instance.worldFromObject);
   }
   for (const shading::Light& light : snapshot.lights) mixIn(hash, light);
+  for (const shading::AreaLight& light : snapshot.areaLights) mixIn(hash, light);
+  if (!snapshot.screens.empty()) mixIn(hash, snapshot.timeSeconds);
   mixIn(hash, snapshot.scene->environment.sky);
   mixIn(hash, snapshot.scene->environment.ambient);
   return hash;

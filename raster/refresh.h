@@ -27,7 +27,8 @@ struct RefreshHistory {
   std::vector<std::uint64_t> contentAtCapture;                 // per probe: visibleContentHash() when last captured
 };
 
-// Hash of everything a probe's capture depends on: all instances but its owners, its position, lights, environment.
+// Hash of everything a probe's capture depends on: all instances but its owners, its position, lights, the
+// time that screens show, environment.
 std::uint64_t visibleContentHash(const Snapshot& snapshot, int probe);
 
 // Faces to capture in this frame, ordered by probe, then face. Every face of a probe that was never captured is due in

@@ -155,6 +155,20 @@ TEST(OnChange, CapturesAllProbesWhenALightChanges) {
   EXPECT_THAT(dueAfter([](Snapshot& s) { s.lights.push_back({}); }), SizeIs(12));
 }
 
+TEST(OnChange, CapturesAllProbesWhenAnAreaLightChanges) {
+  EXPECT_THAT(dueAfter([](Snapshot& s) { s.areaLights.push_back({}); }), SizeIs(12));
+}
+
+TEST(OnChange, CapturesAllProbesWhenScreensShowAnotherTime) {
+  Snapshot snapshot = makeProbes(2);
+  snapshot.screens.emplace_back();
+  RefreshHistory history;
+  advance(history, dueFaces(parseSpec("on-change"), history, snapshot), snapshot);
+  EXPECT_THAT(dueFaces(parseSpec("on-change"), history, snapshot), IsEmpty());
+  snapshot.timeSeconds += 0.5;
+  EXPECT_THAT(dueFaces(parseSpec("on-change"), history, snapshot), SizeIs(12));
+}
+
 TEST(Advance, RecordsFramesOfCapturedFacesOnly) {
   const Snapshot snapshot = makeProbes(1);
   RefreshHistory history;
