@@ -67,15 +67,22 @@ EnvironmentDensity::EnvironmentDensity(const Environment& environment) {
   texels_ = isCubeMap ? environment.faces.front().width() : cellsFor(environment.sky);
   texelsPerCell_ = (texels_ + kMaxCells - 1) / kMaxCells;
   cells_ = (texels_ + texelsPerCell_ - 1) / texelsPerCell_;
-  weights_.assign(std::size_t{6} * static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_), 0.0);
-  if (isCubeMap)
-    weighCubeMap(environment.faces);
-  else
-    weighGradient(environment.sky);
+  const std::vector<Light> light = isCubeMap ? lightOfCubeMap(environment.faces) : lightOfGradient(environment.sky);
+  double flux = 0.0, sphere = 0.0;
+  for (const Light& cell : light) {
+    flux += cell.flux;
+    sphere += cell.solidAngle;
+  }
+  for (const Light& cell : light) weights_.push_back(std::max(cell.flux - flux / sphere * cell.solidAngle, 0.0));
   totalWeight_ = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  constexpr double kSmallestShare = 0.01;
+  if (totalWeight_ >= kSmallestShare * flux) return;
+  weights_.assign(weights_.size(), 0.0);
+  totalWeight_ = 0.0;
 }
 
-void EnvironmentDensity::weighCubeMap(const std::vector<ImageRgba>& faces) {
+std::vector<EnvironmentDensity::Light> EnvironmentDensity::lightOfCubeMap(const std::vector<ImageRgba>& faces) const {
+  std::vector<Light> light(std::size_t{6} * static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_));
   const double texelArea = 4.0 / (static_cast<double>(texels_) * static_cast<double>(texels_));
   for (int face = 0; face < 6; ++face) {
     const Plane padded = paddedLuminance(faces, face);
@@ -83,32 +90,30 @@ void EnvironmentDensity::weighCubeMap(const std::vector<ImageRgba>& faces) {
       for (int x = 0; x < texels_; ++x) {
         const glm::vec2 st = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(texels_) - 1.0f;
         const int cell = (face * cells_ + y / texelsPerCell_) * cells_ + x / texelsPerCell_;
-        weights_[static_cast<std::size_t>(cell)] +=
-            filteredMean(padded, x, y) * texelArea * static_cast<double>(solidAngleDensity(st));
+        const double solidAngle = texelArea * static_cast<double>(solidAngleDensity(st));
+        light[static_cast<std::size_t>(cell)].flux += filteredMean(padded, x, y) * solidAngle;
+        light[static_cast<std::size_t>(cell)].solidAngle += solidAngle;
       }
   }
+  return light;
 }
 
-void EnvironmentDensity::weighGradient(const shading::Sky& sky) {
+std::vector<EnvironmentDensity::Light> EnvironmentDensity::lightOfGradient(const shading::Sky& sky) const {
   constexpr int kPoints = 4;  // each way
-  constexpr double kEvenShare = 0.05;
   const int n = cells_ * kPoints;
   const double area = 4.0 / (static_cast<double>(n) * static_cast<double>(n));
-  std::vector<double> solidAngles(weights_.size(), 0.0);
+  std::vector<Light> light(std::size_t{6} * static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_));
   for (int face = 0; face < 6; ++face)
     for (int y = 0; y < n; ++y)
       for (int x = 0; x < n; ++x) {
         const glm::vec2 st = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(n) - 1.0f;
         const double solidAngle = area * static_cast<double>(solidAngleDensity(st));
-        const auto cell = static_cast<std::size_t>((face * cells_ + y / kPoints) * cells_ + x / kPoints);
+        Light& cell = light[static_cast<std::size_t>((face * cells_ + y / kPoints) * cells_ + x / kPoints)];
         const glm::vec3 d = glm::normalize(shading::cubeDirection(face, st));
-        weights_[cell] += luminance(shading::gradientSky(sky, d)) * solidAngle;
-        solidAngles[cell] += solidAngle;
+        cell.flux += luminance(shading::gradientSky(sky, d)) * solidAngle;
+        cell.solidAngle += solidAngle;
       }
-  const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
-  const double whole = std::accumulate(solidAngles.begin(), solidAngles.end(), 0.0);
-  for (std::size_t cell = 0; cell < weights_.size(); ++cell)
-    weights_[cell] = (1.0 - kEvenShare) * weights_[cell] + kEvenShare * sum * solidAngles[cell] / whole;
+  return light;
 }
 
 float EnvironmentDensity::edge(int i) const {

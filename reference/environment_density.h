@@ -1,4 +1,6 @@
-// How much light the environment sends from where: cells of the six cube faces, weighted by radiance times solid angle.
+// Where it pays to look for the environment's light: cells of the six cube faces, weighted by what their radiance is
+// above the mean of the sphere. What is no brighter than that is left to directions that the surface itself prefers:
+// Karlik et al., "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", TOG 38(6), 2019.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +12,15 @@
 
 namespace pb {
 
-// Every direction from which light comes lies in a cell of positive weight. Cube maps are read with a bilinear filter:
-// a cell's weight is the mean of the filtered radiance, so that a dark texel beside a bright one has its share. A
-// gradient is averaged over 4 x 4 points, and 5 % of the weight is spread evenly, so that a glow narrower than a cell
-// can't be missed.
+// So estimates need the other directions as well. Cube maps are read with a bilinear filter: a cell's radiance is the
+// mean of the filtered one, so that a dark texel beside a bright one has its share. A gradient is averaged over 4 x 4
+// points.
 class EnvironmentDensity {
  public:
   explicit EnvironmentDensity(const Environment& environment);
 
-  // Luminance times solid angle, by cell; empty after forgetWeights().
+  // Luminance above the mean times solid angle, by cell; empty after forgetWeights(). All 0 if that is less than 1 % of
+  // the light: nothing stands out then.
   const std::vector<double>& weights() const { return weights_; }
   double totalWeight() const { return totalWeight_; }
   void forgetWeights() { weights_ = {}; }
@@ -40,8 +42,12 @@ class EnvironmentDensity {
   // Where the cells of a row begin and end, in [-1, 1].
   float edge(int i) const;
   float perSteradian(int x, int y, const glm::vec2& st) const;
-  void weighCubeMap(const std::vector<ImageRgba>& faces);
-  void weighGradient(const shading::Sky& sky);
+  struct Light {
+    double flux = 0.0;  // luminance times solid angle
+    double solidAngle = 0.0;
+  };
+  std::vector<Light> lightOfCubeMap(const std::vector<ImageRgba>& faces) const;
+  std::vector<Light> lightOfGradient(const shading::Sky& sky) const;
 
   int texels_;         // along a face's edge
   int texelsPerCell_;  // along a cell's edge; the last cell may have less

@@ -110,7 +110,7 @@ const std::vector<Row> kRows = {
     {21, "localRadiance, mirror", kArithmetic, 0, "products"},
     {22, "localRadiance, glass", kArithmetic, 0, "products"},
     {23, "localRadiance, unlit", 0, 0, "a copy"},
-    {24, "specularWeights, mirror", kArithmetic, 0, "products"},
+    {24, "specularWeights, mirror", 1e-5, 0, "square roots and divisions of the conductor"},
     {25, "specularWeights, glass", kArithmetic, 0, "a square root and divisions"},
     {26, "viewDirection", kArithmetic, 0, "products"},
     {27, "clipFromWorldPosition", 2 * kArithmetic, 0, "products up to 20"},
