@@ -42,11 +42,21 @@ PB_FUNC float sumOneBelow(vec3 a, vec3 b, vec3 c, float ha, float hb, float hc, 
   return triangleSum(ab, b, c, n) + triangleSum(ab, c, ca, n);
 }
 
+// Whether the point lies in the triangle's plane, but for rounding: 1e-5 of its distances is a hundred times that, and
+// light from so flat an angle is nothing. Without this the light's own points would see it cover all of their sky or
+// nothing of it, as rounding has it.
+PB_FUNC bool isInPlane(vec3 a, vec3 b, vec3 c) {
+  vec3 normal = cross(b - a, c - a);
+  float height = dot(a, normal);
+  return height * height <= 1e-10f * dot(normal, normal) * (dot(a, a) + dot(b, b) + dot(c, c));
+}
+
 // Irradiance at p with unit normal n, W/m^2, unoccluded.
 PB_FUNC vec3 areaLightIrradiance(AreaLight light, vec3 p, vec3 n) {
   vec3 a = vec3(light.a) - p;
   vec3 b = vec3(light.b) - p;
   vec3 c = vec3(light.c) - p;
+  if (isInPlane(a, b, c)) return vec3(0.0f);
   float ha = dot(a, n);
   float hb = dot(b, n);
   float hc = dot(c, n);
