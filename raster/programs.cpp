@@ -139,13 +139,15 @@ GLuint Programs::composeLayers() {
   return find(shaders::kBackgroundVert, shaders::kComposeLayersFrag, "compose_layers", "");
 }
 
-// Of a surface's textures only that of its normals matters behind it.
+// Of a surface's textures only those of its normals and holes matter behind it.
 GLuint Programs::backFaces(const SurfaceVariant& variant) {
   constexpr std::size_t kNormalTexture = 2;
   SurfaceVariant geometry;
   geometry.attributes = variant.attributes;
   geometry.filter = variant.filter;
   geometry.textures[kNormalTexture] = variant.textures[kNormalTexture];
+  geometry.coverage = variant.coverage;
+  if (variant.coverage != shading::kAlphaOpaque) geometry.textures[0] = variant.textures[0];
   return find(shaders::kSceneVert, shaders::kBackFacesFrag, "back_faces", definesOf(geometry));
 }
 

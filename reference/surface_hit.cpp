@@ -79,14 +79,22 @@ glm::vec3 offsetOrigin(const TracedScene& scene, const Hit& hit, const glm::vec3
   return position + side * kRelativeOffset * largest * hit.geometricNormal;
 }
 
+// Of the nearest surface with any coverage: as ids.frag in the raster.
 SampleId identify(const TracedScene& scene, const Ray& primary, float conePerMetre) {
-  const std::optional<Hit> hit = scene.intersect(primary);
-  if (!hit) return {};
-  const float coneWidth = conePerMetre * hit->t * glm::length(primary.direction);
-  const SurfaceAttributes a = interpolate(scene, *hit, shading::safeNormalize(primary.direction), coneWidth);
-  return {.instance = static_cast<std::uint32_t>(hit->instance) + 1,
-          .group = scene.instanceOf(*hit).mesh->smoothingGroups[hit->triangle] + 1,
-          .texel = baseColorTexelId(*scene.snapshot.scene, scene.materialOf(*hit), a)};
+  const glm::vec3 d = shading::safeNormalize(primary.direction);
+  float lengthMetres = 0.0f;
+  Ray ray = primary;
+  while (const std::optional<Hit> hit = scene.intersect(ray)) {
+    lengthMetres += hit->t * glm::length(ray.direction);
+    const SurfaceAttributes a = interpolate(scene, *hit, d, conePerMetre * lengthMetres);
+    const Material& material = scene.materialOf(*hit);
+    if (readSurface(scene.snapshot, material, a).opacity > 0.0f)
+      return {.instance = static_cast<std::uint32_t>(hit->instance) + 1,
+              .group = scene.instanceOf(*hit).mesh->smoothingGroups[hit->triangle] + 1,
+              .texel = baseColorTexelId(*scene.snapshot.scene, material, a)};
+    ray = {offsetOrigin(scene, *hit, a.position, d), d};
+  }
+  return {};
 }
 
 }  // namespace pb

@@ -8,5 +8,9 @@ layout(location = 0) out vec4 backFace;
 
 void main() {
   Fragment fragment = makeFragment();
-  backFace = vec4(readSurface(fragment).normal, length(vec3(pass.view.origin) - worldPosition));
+  Surface surface = readSurface(fragment);
+#if defined(ALPHA_MASK) || defined(ALPHA_BLEND)
+  if (surface.opacity == 0.0f) discard;
+#endif
+  backFace = vec4(surface.normal, length(vec3(pass.view.origin) - worldPosition));
 }
