@@ -22,12 +22,12 @@ bool parseIntegerIn(std::string_view text, int minimum, int maximum, int& target
   return true;
 }
 
-bool parseResolution(std::string_view text, Technique& technique) {
+bool parseResolution(std::string_view text, int& target) {
   int value = 0;
   if (!parseIntegerIn(text, kMinResolution, kMaxResolution, value) ||
       !std::has_single_bit(static_cast<unsigned>(value)))
     return false;
-  technique.resolution = value;
+  target = value;
   return true;
 }
 
@@ -104,7 +104,8 @@ std::vector<std::string> axisNames() {
 std::vector<Axis> makeAxisTable() {
   return {
       {"resolution", fmt::format("powers of two from {} to {}", kMinResolution, kMaxResolution),
-       "texels along the edge of a cube map's face", "GTA V captures at 128", parseResolution,
+       "texels along the edge of a cube map's face", "GTA V captures at 128",
+       [](std::string_view text, Technique& t) { return parseResolution(text, t.resolution); },
        [](const Technique& t) { return std::to_string(t.resolution); }},
       {"refresh", refreshNames(), "which faces of which probes are captured in a frame",
        "engines: Unity's realtime probes (every frame, on awake, time slicing), Unreal's scene captures", parseRefresh,
@@ -144,6 +145,10 @@ std::vector<Axis> makeAxisTable() {
       {"coats", "nearest-probe | environment | none",
        "what dielectric coats of objects without a probe of their own reflect", "nearest-probe: every engine",
        parseChoice<&Technique::coats, kCoats>, printChoice<&Technique::coats, kCoats>},
+      {"shadow_resolution", fmt::format("powers of two from {} to {}", kMinResolution, kMaxResolution),
+       "texels along the edge of a shadow map's face, in scenes that cast shadows", "every engine: 512 to 4096",
+       [](std::string_view text, Technique& t) { return parseResolution(text, t.shadowResolution); },
+       [](const Technique& t) { return std::to_string(t.shadowResolution); }},
   };
 }
 

@@ -28,7 +28,8 @@ double meanOf(const std::vector<double>& values) {
 }
 
 double totalMs(const PassTimes& passes) {
-  return std::accumulate(passes.captureMs.begin(), passes.captureMs.end(), passes.prefilterMs + passes.finalMs);
+  return std::accumulate(passes.captureMs.begin(), passes.captureMs.end(),
+                         passes.shadowMs + passes.prefilterMs + passes.finalMs);
 }
 
 // One technique on one scene over all repetitions.
