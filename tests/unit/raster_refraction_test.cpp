@@ -118,6 +118,23 @@ TEST_P(RasterRefraction, AnIndexOfOneShowsTheBackground) {
   }
 }
 
+// Blended surfaces are collected with colour masked, over a part of the target: back faces are drawn in between.
+TEST_P(RasterRefraction, OfTwoInterfacesHoldsForBlendedGlass) {
+  const auto image = [&](float alphaMode) {
+    Scene scene = makeSkyScene();
+    Material material = makeGlassMaterial("half", 1.5f);
+    material.constants.baseColor.w = 0.5f;
+    material.constants.alpha.x = alphaMode;
+    addGlass(scene, makeSphereMesh(0.8f, 64, 32), material);
+    return render(*snapshotOf(std::move(scene)), withoutReflection(Refraction::twoInterface));
+  };
+  const Image background = render(*snapshotOf(makeSkyScene()));
+  const Image opaque = image(shading::kAlphaOpaque), blended = image(shading::kAlphaBlend);
+  EXPECT_GT(largestDifference(opaque, background), 0.1f);
+  for (std::size_t i = 0; i < background.size(); ++i)
+    EXPECT_LT(glm::distance(blended[i], 0.5f * (opaque[i] + background[i])), 1e-5f);
+}
+
 TEST_P(RasterRefraction, ThinWallsShowTheBackground) {
   const Image background = render(*snapshotOf(makeSkyScene()));
   Scene scene = makeSkyScene();
