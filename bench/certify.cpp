@@ -41,8 +41,6 @@ const std::vector<Certificate>& certificates() {
   return table;
 }
 
-std::vector<Check> runControl(RasterDevice& device) { return certifyControl(device); }
-
 bool Check::passed() const { return std::abs(measured - expected) <= tolerance; }
 
 bool allPassed(const std::vector<Check>& checks) {

@@ -32,7 +32,7 @@ struct Certificate {
 
 const std::vector<Certificate>& certificates();
 
-// The control alone: runs before every suite.
+// The control's scene of opaque objects: runs before every suite.
 std::vector<Check> runControl(RasterDevice& device);
 
 bool allPassed(const std::vector<Check>& checks);

@@ -86,6 +86,7 @@ class Measurement {
  private:
   static Technique plainTechnique(Technique technique) {
     technique.probes = ProbeUse::environmentOnly;
+    technique.refraction = Refraction::oneInterface;  // the others draw more than the frame
     return technique;
   }
 

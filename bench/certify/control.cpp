@@ -1,4 +1,6 @@
 // The control: a scene in which nothing is approximated must be the same picture in both renderers.
+#include <iterator>
+
 #include "bench/certify.h"
 #include "bench/certify/common.h"
 #include "bench/metrics/metrics.h"
@@ -71,12 +73,25 @@ std::vector<Check> compareControl(RasterDevice& device, const std::string& name,
   };
 }
 
+void append(std::vector<Check>& checks, std::vector<Check> more) {
+  checks.insert(checks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
 }  // namespace
 
-std::vector<Check> certifyControl(RasterDevice& device) {
+std::vector<Check> runControl(RasterDevice& device) {
   std::vector<Check> checks = compareControl(device, "control, untextured", {"control", {{"textures", "0"}}}, 1e-6);
-  for (Check& check : compareControl(device, "control, textured", {"control", {}}, 1e-5))
-    checks.push_back(std::move(check));
+  append(checks, compareControl(device, "control, textured", {"control", {}}, 1e-5));
+  return checks;
+}
+
+std::vector<Check> certifyControl(RasterDevice& device) {
+  std::vector<Check> checks = runControl(device);
+  append(checks, compareControl(device, "control, transparent", {"control-alpha", {}}, 1e-5));
+  // Shadow maps are an approximation.
+  std::vector<Check> shadows = compareControl(device, "control, shadows", {"control-shadows", {}}, 1e-5);
+  for (Check& check : shadows) check.binding = false;
+  append(checks, std::move(shadows));
   return checks;
 }
 
