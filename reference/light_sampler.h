@@ -35,8 +35,8 @@ class LightSampler {
   // back or from its edge); it counts as a sample of radiance 0.
   std::optional<Sample> sample(const glm::vec3& position, const glm::vec2& uDirection, float uChoice) const;
 
-  // Density with which sample() finds a direction through the environment; 0 where that is no brighter than its mean, so
-  // that estimates need other directions as well (multiple importance sampling).
+  // Density with which sample() finds a direction through the environment; 0 where that is no brighter than its mean,
+  // so that estimates need other directions as well (multiple importance sampling).
   float pdfEnvironment(const glm::vec3& direction) const;
 
   // Density with which sample() at `position` finds this point of a triangle; 0 for triangles that don't emit, and on

@@ -22,7 +22,9 @@ namespace {
 struct RenderOptions {
   std::string scene, renderer, output, camera;
   std::string size = "640x360", depth = "converged", diffuse = "local";
+  std::string sampling = "sobol";
   int samples = 4, frame = 0, spp = 16;
+  std::uint64_t seed = 1;
   double exposure = 0;
   std::optional<int> diffuseDepth;
   std::vector<std::string> settings, aovs;
@@ -80,6 +82,8 @@ RenderJob parseJob(const RenderOptions& options) {
   if (options.diffuseDepth && job.reference.diffuse == DiffuseTransport::local)
     throwInputError("--diffuse-depth belongs to --diffuse traced");
   job.reference.spp = options.spp;
+  job.reference.seed = options.seed;
+  job.reference.sampling = options.sampling == "sobol" ? Sampling::sobol : Sampling::independent;
   job.idsPath = parseAovs(options.aovs);
   job.scene = loadScene(options.scene);
   return job;
@@ -177,6 +181,10 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& actio
                        : fmt::format("wants an even number from 2 to 65536, got {}", text);
           },
           "EVEN"))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of the reference's random numbers")->capture_default_str();
+  command->add_option("--sampling", options->sampling, "random numbers of the reference: sobol or independent")
+      ->check(CLI::IsMember({"sobol", "independent"}))
       ->capture_default_str();
   command->add_option("--exposure", options->exposure, "stops")->check(CLI::Range(-32.0, 32.0))->capture_default_str();
   command->add_option("--aov", options->aovs, "ids=FILE.exr: what each primary sample shows")->allow_extra_args(false);
