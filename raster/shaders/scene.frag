@@ -3,7 +3,8 @@
 //
 // Variants by defines, besides those of the included files: SURFACE_KIND (kSurface*), PROBE_LOOKUP for specular
 // surfaces that show their probe's cube map instead of the environment, ALPHA_MASK for surfaces with holes, ALPHA_BLEND for
-// those that cover partly and are composed later (layers.glsl), and SHADOWS if lights have shadow maps.
+// those that cover partly and are composed later (layers.glsl), SHADOWS if lights have shadow maps, CONDUCTOR if the metal's index of refraction is known, and
+// AREA_LIGHTS if surfaces emit.
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
 #include "raster/shaders/surface_fetch.glsl"
@@ -54,8 +55,10 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
     highlights += fromLight * specularBrdf(s, toViewer, lightDirection(lights[i], s.position), kFresnelLaw, kGeometry);
 #endif
   }
+#ifdef AREA_LIGHTS
   count = int(pass.lights.y);
   for (int i = 0; i < count; ++i) irradiance += areaLightIrradiance(areaLights[i], s.position, s.normal);
+#endif
   return highlights + localRadiance(s, irradiance, ambientRadiance(scene.ambient, s.normal), coatAlbedo(s, dfg));
 }
 
@@ -66,7 +69,11 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
 void main() {
   Fragment fragment = makeFragment();
   Surface s = readSurface(fragment);
-  s.kind = SURFACE_KIND;  // what the material says, known to the compiler
+  // What the material says, known to the compiler.
+  s.kind = SURFACE_KIND;
+#ifndef CONDUCTOR
+  s.conductorEta = vec4(0.0f);
+#endif
 #if defined(ALPHA_MASK) || defined(ALPHA_BLEND)
   if (s.opacity == 0.0f) discard;
 #endif

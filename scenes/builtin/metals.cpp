@@ -100,7 +100,6 @@ Scene makeMetalsScene(SpecReader& parameters) {
   // Width and height of the grid in a picture of 16:9.
   const float distance = 0.85f * static_cast<float>(std::max(columns, 4)) + 0.6f;
   addCamera(scene, "Camera", {0.0f, 2.3f, distance}, {0.0f, 0.85f, -0.9f}, glm::radians(40.0f), 0.1f);
-  addDirectionalLight(scene, "Sun", {0.5f, 0.8f, 0.4f}, glm::vec3(1.8f, 1.7f, 1.5f));
   scene.environment = makeProceduralSky();
   return scene;
 }
