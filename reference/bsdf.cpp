@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/dfg_table.h"
+#include "scenes/luminance.h"
 
 namespace pb {
 namespace {
@@ -60,8 +61,6 @@ int chooseChannel(glm::vec3& weight, float u) {
 }
 
 }  // namespace
-
-float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 Bsdf::Bsdf(const shading::Surface& surface, const glm::vec3& toViewer, const InterfaceIor& refraction,
            DiffuseTransport diffuse)

@@ -20,9 +20,6 @@
 
 namespace pb {
 
-// Rec.709.
-float luminance(const glm::vec3& c);
-
 // The indices of refraction on both sides of a surface, seen along the path.
 struct InterfaceIor {
   glm::vec3 relativeIor{1.0f};  // n behind over n before, by channel

@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "scenes/luminance.h"
+
 namespace pb {
 namespace {
 

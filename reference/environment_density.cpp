@@ -6,14 +6,13 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "scenes/luminance.h"
+
 namespace pb {
 namespace {
 
 // Cells along a face's edge at most: 6 * 512^2 of them take 30 MB. The sun is 1/200 of a radian wide, a cell 1/256.
 constexpr int kMaxCells = 512;
-
-// Rec.709.
-double luminance(const glm::vec3& c) { return static_cast<double>(glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f))); }
 
 // Along an edge of a face on which the gradient's glow is to be seen: its density falls by e within sqrt(2 / exponent)
 // radians, which ought to be two cells of 2 / n radians.
@@ -33,8 +32,7 @@ Plane paddedLuminance(const std::vector<ImageRgba>& faces, int face) {
     for (int x = -1; x <= n; ++x) {
       if ((x < 0 || x == n) && (y < 0 || y == n)) continue;
       const shading::ivec3 texel = shading::cubeWrapTexel({x, y}, face, n);
-      padded(x + 1, y + 1) =
-          static_cast<float>(luminance(glm::vec3(faces[static_cast<std::size_t>(texel.z)](texel.x, texel.y))));
+      padded(x + 1, y + 1) = luminance(glm::vec3(faces[static_cast<std::size_t>(texel.z)](texel.x, texel.y)));
     }
   for (const int y : {0, n + 1})
     for (const int x : {0, n + 1}) {
@@ -110,7 +108,7 @@ std::vector<EnvironmentDensity::Light> EnvironmentDensity::lightOfGradient(const
         const double solidAngle = area * static_cast<double>(solidAngleDensity(st));
         Light& cell = light[static_cast<std::size_t>((face * cells_ + y / kPoints) * cells_ + x / kPoints)];
         const glm::vec3 d = glm::normalize(shading::cubeDirection(face, st));
-        cell.flux += luminance(shading::gradientSky(sky, d)) * solidAngle;
+        cell.flux += static_cast<double>(luminance(shading::gradientSky(sky, d))) * solidAngle;
         cell.solidAngle += solidAngle;
       }
   return light;

@@ -10,25 +10,10 @@
 #include "reference/environment_density.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
+#include "scenes/luminance.h"
 
 namespace pb {
 namespace {
-
-// Rec.709.
-float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
-
-const Texture* emissionTextureOf(const Snapshot& snapshot, const Material& material) {
-  if (material.screen >= 0) return &snapshot.screens[static_cast<std::size_t>(material.screen)];
-  if (material.emissionTexture < 0) return nullptr;
-  return &snapshot.scene->textures[static_cast<std::size_t>(material.emissionTexture)];
-}
-
-// Mean over the texture: its last level is one texel.
-glm::vec3 meanEmission(const Snapshot& snapshot, const Material& material) {
-  const Texture* texture = emissionTextureOf(snapshot, material);
-  const glm::vec3 factor(material.constants.emission);
-  return texture == nullptr ? factor : factor * glm::vec3(texture->levels.back()(0, 0));
-}
 
 // The triangles of one instance that shine on others; those of unlit surfaces don't.
 struct Emitter {

@@ -13,6 +13,7 @@
 
 #include "scenes/dfg_table.h"
 #include "scenes/error.h"
+#include "scenes/luminance.h"
 #include "scenes/screen.h"
 #include "scenes/spec.h"
 
@@ -104,11 +105,6 @@ const Texture* textureAt(const Scene& scene, int texture) {
   return texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(texture)];
 }
 
-const Texture* emissionTextureOf(const Snapshot& snapshot, const Material& material) {
-  if (material.screen >= 0) return &snapshot.screens[static_cast<std::size_t>(material.screen)];
-  return textureAt(*snapshot.scene, material.emissionTexture);
-}
-
 // One probe a node: all its instances that own one share it.
 void addProbes(Snapshot& snapshot, const std::vector<glm::mat4>& world) {
   std::map<int, int> probeOfNode;
@@ -143,15 +139,6 @@ void findNearestProbes(Snapshot& snapshot) {
         static_cast<int>(std::ranges::min_element(snapshot.probes, {}, distance) - snapshot.probes.begin());
   }
 }
-
-// Mean over the texture: its last level is one texel.
-glm::vec3 meanEmission(const Snapshot& snapshot, const Material& material) {
-  const Texture* texture = emissionTextureOf(snapshot, material);
-  const glm::vec3 factor(material.constants.emission);
-  return texture == nullptr ? factor : factor * glm::vec3(texture->levels.back()(0, 0));
-}
-
-float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 void addAreaLightsOf(Snapshot& snapshot, std::size_t index, const glm::vec3& radiance) {
   const SnapshotInstance& instance = snapshot.instances[index];
@@ -342,6 +329,18 @@ shading::Surface readSurface(const Snapshot& snapshot, const Material& material,
       sampleSlot(textureAt(scene, material.metallicRoughnessTexture), c.metallicRoughnessSlot, a),
       sampleSlot(emissionTextureOf(snapshot, material), c.emissionSlot, a),
       sampleSlot(textureAt(scene, material.occlusionTexture), c.occlusionSlot, a));
+}
+
+const Texture* emissionTextureOf(const Snapshot& snapshot, const Material& material) {
+  if (material.screen >= 0) return &snapshot.screens[static_cast<std::size_t>(material.screen)];
+  return textureAt(*snapshot.scene, material.emissionTexture);
+}
+
+glm::vec3 meanEmission(const Snapshot& snapshot, const Material& material) {
+  const Texture* texture = emissionTextureOf(snapshot, material);
+  const glm::vec3 factor(material.constants.emission);
+  // A texture's last level is one texel, its mean.
+  return texture == nullptr ? factor : factor * glm::vec3(texture->levels.back()(0, 0));
 }
 
 std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, const SurfaceAttributes& a) {

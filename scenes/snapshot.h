@@ -94,6 +94,12 @@ struct SurfaceAttributes {
 };
 shading::Surface readSurface(const Snapshot& snapshot, const Material& material, const SurfaceAttributes& a);
 
+// The picture that the material emits, of the screen it shows at this time if it shows one; null: emission is uniform.
+const Texture* emissionTextureOf(const Snapshot& snapshot, const Material& material);
+
+// Emitted radiance, its mean over the texture.
+glm::vec3 meanEmission(const Snapshot& snapshot, const Material& material);
+
 // SampleId::texel of the point: see nearestTexelId() in shading/texture.glsl, 0 without a base colour texture.
 std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, const SurfaceAttributes& a);
 

@@ -10,6 +10,7 @@
 #include "bench/metrics/checks.h"
 #include "bench/metrics/tap_sums.h"
 #include "bench/metrics/vector_clones.h"
+#include "scenes/luminance.h"
 
 namespace pb {
 namespace {
@@ -148,9 +149,7 @@ DoublePlane channelPlane(const Image& image, int channel) {
 }
 
 DoublePlane lumaPlane(const Image& image) {
-  return planeOf(image, [](const glm::vec3& pixel) {
-    return 0.2126 * double{pixel.x} + 0.7152 * double{pixel.y} + 0.0722 * double{pixel.z};
-  });
+  return planeOf(image, [](const glm::vec3& pixel) { return luminance(glm::dvec3(pixel)); });
 }
 
 double meanOf(const DoublePlane& map) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/error.h"
+#include "scenes/luminance.h"
 
 namespace pb::flip {
 namespace {
@@ -22,8 +23,7 @@ std::vector<double> positiveLuminances(const Image& image) {
   luminances.reserve(image.size());
   for (const glm::vec3& pixel : image) {
     const glm::dvec3 rgb(std::max(pixel.x, 0.0f), std::max(pixel.y, 0.0f), std::max(pixel.z, 0.0f));
-    const double luminance = 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
-    if (luminance > 0) luminances.push_back(luminance);
+    if (const double positive = luminance(rgb); positive > 0) luminances.push_back(positive);
   }
   return luminances;
 }

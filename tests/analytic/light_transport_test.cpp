@@ -11,6 +11,7 @@
 #include "reference/light_sampler.h"
 #include "reference/renderer.h"
 #include "scenes/builtin/shapes.h"
+#include "scenes/luminance.h"
 #include "tests/analytic/reference_scenes.h"
 
 namespace pb {
