@@ -79,7 +79,7 @@ std::string ReferenceStore::describe(const ReferenceRequest& request) {
   std::string text = fmt::format(
       "snapshot {:016x} size {}x{} samples {} spp {} depth {} diffuse {} {} seed {} sampling {} hidden [{}] integrator "
       "{} embree {}",
-      contentHash(*request.snapshot), request.widthPx, request.heightPx,
+      referenceHash(*request.snapshot), request.widthPx, request.heightPx,
       settings.samplesPerAxis * settings.samplesPerAxis, settings.spp,
       settings.depth ? std::to_string(*settings.depth) : "converged", printDiffuse(settings.diffuse),
       settings.diffuseDepth ? std::to_string(*settings.diffuseDepth) : "unlimited", settings.seed,

@@ -36,6 +36,11 @@ std::string bounds(const Scene& scene) {
   return all.empty() ? "bounds     empty\n" : fmt::format("bounds     {} to {} m\n", text(all.lower), text(all.upper));
 }
 
+std::string room(const Scene& scene) {
+  if (!scene.room) return "";
+  return fmt::format("room       {} to {} m\n", text(scene.room->lower), text(scene.room->upper));
+}
+
 std::string cameras(const Scene& scene) {
   std::string lines;
   for (const Camera& camera : scene.cameras)
@@ -53,8 +58,10 @@ std::string reasonFor(const Material& material) {
 
 std::string placeOf(const std::optional<ProbeSettings>& probe) {
   if (probe && !probe->enabled) return "no probe: switched off in the node's extras";
-  if (probe && probe->position) return "probe at " + text(*probe->position) + " of the node";
-  return "probe at the centre of the bounds";
+  const std::string place = probe && probe->position ? "probe at " + text(*probe->position) + " of the node"
+                                                     : "probe at the centre of the bounds";
+  return probe && probe->box ? place + ", its box " + text(probe->box->lower) + " to " + text(probe->box->upper)
+                             : place;
 }
 
 std::string probes(const Scene& scene) {
@@ -90,8 +97,8 @@ std::string sentences(const char* kind, const std::vector<std::string>& list) {
 }  // namespace
 
 std::string describe(const Scene& scene) {
-  return fmt::format("scene      {}\n", scene.name) + counts(scene) + duration(scene) + bounds(scene) + cameras(scene) +
-         probes(scene) + environment(scene) + shadows(scene) + sentences("note:", scene.notes) +
+  return fmt::format("scene      {}\n", scene.name) + counts(scene) + duration(scene) + bounds(scene) + room(scene) +
+         cameras(scene) + probes(scene) + environment(scene) + shadows(scene) + sentences("note:", scene.notes) +
          sentences("warning:", scene.warnings);
 }
 

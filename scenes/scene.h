@@ -110,6 +110,7 @@ Material makeGlassMaterial(std::string name, float ior, float thickness = 1.0f);
 struct ProbeSettings {
   bool enabled = true;
   std::optional<glm::vec3> position;  // in the node's space; otherwise the centre of the world bounding box
+  std::optional<Bounds> box{};        // world space: what a box proxy takes for the surroundings; otherwise Scene::room
 };
 
 // Bounds of translations, scales and matrices, of single nodes and in world space, where they multiply: the product of
@@ -198,6 +199,7 @@ struct Scene {
   double framesPerSecond = 30.0;  // frame f is the scene at time f / framesPerSecond, looped over durationSeconds
   double durationSeconds = 0.0;   // end of the longest track or screen's loop; 0: nothing moves
   float probeNear = 0.01f;        // near plane of cube captures, metres
+  std::optional<Bounds> room;     // world space: the box of probes without one of their own
   std::vector<std::string> warnings;  // what the loader ignored, one sentence each
   std::vector<std::string> notes;     // what the loader added (default camera, sky, ...)
 };

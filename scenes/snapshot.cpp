@@ -124,10 +124,11 @@ void addProbes(Snapshot& snapshot, const std::vector<glm::mat4>& world) {
   }
   for (const auto& [node, probe] : probeOfNode) {
     const std::optional<ProbeSettings>& settings = snapshot.scene->nodes[static_cast<std::size_t>(node)].probe;
-    snapshot.probes[static_cast<std::size_t>(probe)].position =
-        settings && settings->position
-            ? glm::vec3(world[static_cast<std::size_t>(node)] * glm::vec4(*settings->position, 1.0f))
-            : bounds[static_cast<std::size_t>(probe)].centre();
+    Probe& placed = snapshot.probes[static_cast<std::size_t>(probe)];
+    placed.proxyBox = settings && settings->box ? settings->box : snapshot.scene->room;
+    placed.position = settings && settings->position
+                          ? glm::vec3(world[static_cast<std::size_t>(node)] * glm::vec4(*settings->position, 1.0f))
+                          : bounds[static_cast<std::size_t>(probe)].centre();
   }
 }
 
@@ -227,6 +228,28 @@ void hashMaterial(Hasher& hasher, const Scene& scene, const Material& m) {
   hasher.value(m.isSpecularDominant);
 }
 
+void hashSurfacesAndLight(Hasher& hasher, const Snapshot& snapshot) {
+  const Scene& scene = *snapshot.scene;
+  for (const SnapshotInstance& instance : snapshot.instances) {
+    hasher.value(instance.mesh->contentHash);
+    hasher.value(instance.worldFromObject);
+    hasher.value(instance.material);
+    hasher.value(instance.probe);
+  }
+  for (const Material& material : scene.materials) hashMaterial(hasher, scene, material);
+  for (const shading::Light& light : snapshot.lights) hasher.value(light);
+  for (const Texture& screen : snapshot.screens) hashTexels(hasher, screen);
+  hasher.value(scene.castsShadows);
+  hasher.value(scene.environment.sky);
+  hasher.value(scene.environment.ambient);
+  for (const ImageRgba& face : scene.environment.faces) hasher.bytes(face.data(), face.size() * sizeof(glm::vec4));
+  for (const Probe& probe : snapshot.probes) {
+    hasher.value(probe.position);
+    hasher.value(probe.zNear);
+  }
+  hasher.value(snapshot.camera);
+}
+
 // Values of the slot's texture, white without one.
 shading::vec4 sampleSlot(const Texture* texture, const shading::TextureSlot& slot, const SurfaceAttributes& a) {
   if (texture == nullptr) return shading::vec4(1.0f);
@@ -281,25 +304,15 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene,
 
 std::uint64_t contentHash(const Snapshot& snapshot) {
   Hasher hasher;
-  const Scene& scene = *snapshot.scene;
-  for (const SnapshotInstance& instance : snapshot.instances) {
-    hasher.value(instance.mesh->contentHash);
-    hasher.value(instance.worldFromObject);
-    hasher.value(instance.material);
-    hasher.value(instance.probe);
-  }
-  for (const Material& material : scene.materials) hashMaterial(hasher, scene, material);
-  for (const shading::Light& light : snapshot.lights) hasher.value(light);
-  for (const Texture& screen : snapshot.screens) hashTexels(hasher, screen);
-  hasher.value(scene.castsShadows);
-  hasher.value(scene.environment.sky);
-  hasher.value(scene.environment.ambient);
-  for (const ImageRgba& face : scene.environment.faces) hasher.bytes(face.data(), face.size() * sizeof(glm::vec4));
-  for (const Probe& probe : snapshot.probes) {
-    hasher.value(probe.position);
-    hasher.value(probe.zNear);
-  }
-  hasher.value(snapshot.camera);
+  hashSurfacesAndLight(hasher, snapshot);
+  for (const Probe& probe : snapshot.probes)
+    if (probe.proxyBox) hasher.value(*probe.proxyBox);
+  return hasher.digest();
+}
+
+std::uint64_t referenceHash(const Snapshot& snapshot) {
+  Hasher hasher;
+  hashSurfacesAndLight(hasher, snapshot);
   return hasher.digest();
 }
 

@@ -5,6 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,10 @@ struct EmittingTriangle {
 };
 
 struct Probe {
-  glm::vec3 position;       // world
-  std::vector<int> owners;  // instances shaded by this probe; hidden while it is captured
-  float zNear;              // near plane of its faces, metres
+  glm::vec3 position;                // world
+  std::vector<int> owners;           // instances shaded by this probe; hidden while it is captured
+  float zNear;                       // near plane of its faces, metres
+  std::optional<Bounds> proxyBox{};  // world: the surroundings as a box, where node or scene state one
 };
 
 struct Snapshot {
@@ -73,6 +75,10 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene,
 // Everything that determines a picture of this snapshot: geometry, transforms, materials, textures, lights,
 // environment, probes and camera. Equal hashes mean equal pictures.
 std::uint64_t contentHash(const Snapshot& snapshot);
+
+// Everything that determines a reference of this snapshot: proxy boxes, which only lookups in probes read, are left
+// out.
+std::uint64_t referenceHash(const Snapshot& snapshot);
 
 // The view with its sample cone set for an image that is `widthPx` samples wide (see shading/texture.glsl, coneLod).
 shading::View withResolution(shading::View view, int widthPx);

@@ -87,6 +87,20 @@ json toJson(const shading::Sky& sky) {
           {"limit", sky.horizon.w}};
 }
 
+// An axis-aligned box in world space.
+Bounds readBox(const json& value, const std::string& owner, const std::string& place,
+               std::vector<std::string>& warnings) {
+  Bounds box;
+  box.lower = vector(member(value, "lower", place), place + "/lower");
+  box.upper = vector(member(value, "upper", place), place + "/upper");
+  if (glm::any(glm::greaterThanEqual(box.lower, box.upper)))
+    throwInputError("{} wants lower below upper in x, y and z, got {}", place, value.dump());
+  warnOfUnknownMembers(value, owner, place, {"lower", "upper"}, warnings);
+  return box;
+}
+
+json toJson(const Bounds& box) { return {{"lower", toJson(box.lower)}, {"upper", toJson(box.upper)}}; }
+
 shading::Ambient readAmbient(const json& value, const std::string& place) {
   if (!value.is_array() || value.size() != kAmbientMembers.size())
     throwInputError("{} wants {} colours, got {}", place, kAmbientMembers.size(), value.dump());
@@ -236,7 +250,8 @@ bool readOwnExtras(const Document& document, const json& own, Scene& scene) {
   const std::string place = "extras.probebench";
   const json& schema = member(own, "schema", place);
   if (schema != 1) throwInputError("{} wants schema 1, got {}", place, schema.dump());
-  warnOfUnknownMembers(own, "", place, {"schema", "environment", "screens", "shadows", "probeNear", "framesPerSecond"},
+  warnOfUnknownMembers(own, "", place,
+                       {"schema", "environment", "screens", "shadows", "probeNear", "room", "framesPerSecond"},
                        scene.warnings);
   if (own.contains("environment"))
     scene.environment = readEnvironment(document, own["environment"], place + "/environment", scene.warnings);
@@ -244,6 +259,7 @@ bool readOwnExtras(const Document& document, const json& own, Scene& scene) {
   if (own.contains("shadows")) scene.castsShadows = readShadows(own["shadows"], place + "/shadows");
   if (own.contains("probeNear"))
     scene.probeNear = static_cast<float>(number(own["probeNear"], place + "/probeNear", 1e-6, kLargest));
+  if (own.contains("room")) scene.room = readBox(own["room"], "", place + "/room", scene.warnings);
   if (own.contains("framesPerSecond"))
     scene.framesPerSecond = number(own["framesPerSecond"], place + "/framesPerSecond", 1e-3, 1e6);
   return own.contains("environment");
@@ -302,12 +318,13 @@ std::optional<ProbeSettings> readProbeExtras(const json& extras, const std::stri
   const json& probe = extras["probe"];
   if (probe.is_boolean()) return ProbeSettings{.enabled = probe, .position = {}};
   if (!probe.is_object()) throwInputError("{} wants true, false or an object, got {}", place, probe.dump());
-  warnOfUnknownMembers(probe, node + ": ", place, {"enabled", "position"}, warnings);
+  warnOfUnknownMembers(probe, node + ": ", place, {"enabled", "position", "box"}, warnings);
   ProbeSettings settings;
   const json enabled = probe.value("enabled", json(true));
   if (!enabled.is_boolean()) throwInputError("{}/enabled wants true or false, got {}", place, enabled.dump());
   settings.enabled = enabled;
   if (probe.contains("position")) settings.position = vector(probe["position"], place + "/position");
+  if (probe.contains("box")) settings.box = readBox(probe["box"], node + ": ", place + "/box", warnings);
   return settings;
 }
 
@@ -358,12 +375,14 @@ json sceneExtras(const Scene& scene, const AddBufferView& addBufferView) {
               {"probeNear", scene.probeNear},
               {"framesPerSecond", scene.framesPerSecond}};
   for (const Screen& screen : scene.screens) own["screens"].push_back(toJson(screen));
+  if (scene.room) own["room"] = toJson(*scene.room);
   return {{"probebench", own}};
 }
 
 json probeExtras(const ProbeSettings& probe) {
   json settings = {{"enabled", probe.enabled}};
   if (probe.position) settings["position"] = toJson(*probe.position);
+  if (probe.box) settings["box"] = toJson(*probe.box);
   return {{"probe", settings}};
 }
 

@@ -1,7 +1,7 @@
 // What glTF can't say. Written to and read from scenes[].extras.probebench (sky, ambient light, screens, shadows, near
-// plane of probes, frame rate), materials[].extras.probebench (a metal's index of refraction, the screen that it shows)
-// and nodes[].extras.probe; their JSON Schema is results/schema/scene-extras.schema.json. Also read are the extras of
-// two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, diffuse, cubeCamera.near.
+// plane of probes, room, frame rate), materials[].extras.probebench (a metal's index of refraction, the screen that it
+// shows) and nodes[].extras.probe; their JSON Schema is results/schema/scene-extras.schema.json. Also read are the
+// extras of two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, diffuse, cubeCamera.near.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ namespace pb::gltf {
 // last word. Wants the scene's materials, whose screens are checked.
 bool readSceneExtras(const Document& document, const nlohmann::json& extras, Scene& scene);
 
-// nodes[].extras.probe: true, false or {"enabled": ..., "position": [x, y, z]}. Warnings about other members name the
-// node.
+// nodes[].extras.probe: true, false or {"enabled": ..., "position": [x, y, z], "box": {"lower": ..., "upper": ...}}.
+// Warnings about other members name the node.
 std::optional<ProbeSettings> readProbeExtras(const nlohmann::json& extras, const std::string& node,
                                              std::vector<std::string>& warnings);
 
