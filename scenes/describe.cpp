@@ -32,7 +32,7 @@ std::string duration(const Scene& scene) {
 
 std::string bounds(const Scene& scene) {
   Bounds all;
-  for (const auto& [world, mesh] : worldMeshes(scene, 0.0)) all.include(transformed(mesh->bounds, world));
+  for (const WorldMesh& m : worldMeshes(scene, 0.0)) all.include(transformed(m.mesh->bounds, m.worldFromObject));
   return all.empty() ? "bounds     empty\n" : fmt::format("bounds     {} to {} m\n", text(all.lower), text(all.upper));
 }
 

@@ -191,6 +191,28 @@ Environment loadEnvironment(const std::string& text, std::vector<std::string>& w
   return makeCubeEnvironment(text, loadEquirectangular(text, warnings));
 }
 
+std::vector<TimedEnvironment> parseEnvironments(const std::string& text) {
+  std::vector<TimedEnvironment> environments;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(';', start), text.size());
+    const std::string part = text.substr(start, end - start);
+    start = end + 1;
+    const std::size_t at = environments.empty() ? std::string::npos : part.rfind('@');
+    const std::optional<double> time = at == std::string::npos ? std::nullopt : parseNumber(part.substr(at + 1));
+    if (!environments.empty() && !time)
+      throwInputError("environments after the first want their time, as in 'sky;black@2', got '{}'", part);
+    environments.push_back({part.substr(0, at), time.value_or(0.0)});
+  }
+  return environments;
+}
+
+std::string printEnvironments(const std::vector<TimedEnvironment>& environments) {
+  std::string text = environments.front().text;
+  for (std::size_t i = 1; i < environments.size(); ++i)
+    text += fmt::format(";{}@{}", environments[i].text, environments[i].timeSeconds);
+  return text;
+}
+
 // Infinities occur where a half-float file was saved from too bright a picture.
 void repairRadiance(ImageRgba& image, const std::string& name, std::vector<std::string>& warnings) {
   const auto isTooBright = [](float value) { return value > kLargestRadiance; };

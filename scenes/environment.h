@@ -28,6 +28,15 @@ Environment makeCubeEnvironment(std::string name, std::vector<ImageRgba> faces);
 // Values are repaired by repairRadiance().
 Environment loadEnvironment(const std::string& text, std::vector<std::string>& warnings);
 
+// "sky;sunset.exr@2;black@3.5": environments that follow each other, from 2 s and from 3.5 s on; the first one's time
+// is 0. Throws an input Error for a later one without time.
+struct TimedEnvironment {
+  std::string text;  // for loadEnvironment()
+  double timeSeconds = 0.0;
+};
+std::vector<TimedEnvironment> parseEnvironments(const std::string& text);
+std::string printEnvironments(const std::vector<TimedEnvironment>& environments);
+
 // Replaces what no light can be: NaN and negative values become 0; infinities and values above kLargestRadiance become
 // the largest of the others. Each comes with a warning that counts them. Alpha becomes 1.
 void repairRadiance(ImageRgba& image, const std::string& name, std::vector<std::string>& warnings);

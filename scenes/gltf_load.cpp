@@ -16,6 +16,7 @@
 #include "scenes/gltf/material.h"
 #include "scenes/gltf/mesh.h"
 #include "scenes/gltf/node.h"
+#include "scenes/gltf/skin.h"
 #include "scenes/gltf/validate.h"
 
 namespace pb {
@@ -58,6 +59,7 @@ class SceneBuilder {
 
   Scene build(const std::optional<Environment>& environment) {
     addNodes();
+    gltf::readSkins(document_, sceneNodes_, scene_);
     gltf::readMaterials(document_, scene_);
     for (std::size_t n = 0; n < model_.nodes.size(); ++n)
       if (sceneNodes_[n] >= 0) addContents(n);
@@ -96,7 +98,8 @@ class SceneBuilder {
   void addContents(std::size_t n) {
     const tinygltf::Node& node = model_.nodes[n];
     const std::string place = gltf::placeOfNode(document_, n);
-    if (node.skin >= 0) scene_.warnings.push_back(place + ": its skin is ignored, the mesh keeps its bind pose");
+    if (node.skin >= 0 && !hasJoints(node))
+      scene_.warnings.push_back(place + ": its skin is ignored, there is no mesh with joints");
     for (const auto& [name, value] : node.extensions)
       if (!gltf::isSupportedExtension(name))
         scene_.warnings.push_back(fmt::format("{}: extension {} is ignored", place, name));
@@ -104,6 +107,11 @@ class SceneBuilder {
     if (auto camera = gltf::readCamera(document_, n, sceneNodes_[n], scene_.warnings))
       scene_.cameras.push_back(std::move(*camera));
     if (const auto light = gltf::readLight(document_, n, sceneNodes_[n])) scene_.lights.push_back(*light);
+  }
+
+  bool hasJoints(const tinygltf::Node& node) const {
+    return node.mesh >= 0 && std::ranges::any_of(model_.meshes[static_cast<std::size_t>(node.mesh)].primitives,
+                                                 [](const auto& p) { return p.attributes.contains("JOINTS_0"); });
   }
 
   void addInstances(std::size_t n, std::size_t meshIndex) {

@@ -47,6 +47,7 @@ class Writer {
     root_["asset"] = {{"version", "2.0"}, {"generator", "probebench"}};
     addMaterials();
     addNodes();
+    addSkins();
     addInstances();
     addCameras();
     addLights();
@@ -97,6 +98,10 @@ class Writer {
   int addAccessor(const std::vector<glm::vec2>& v) { return append("accessors", accessorOf(v, "VEC2", kFloat)); }
   int addAccessor(const std::vector<glm::vec3>& v) { return append("accessors", accessorOf(v, "VEC3", kFloat)); }
   int addAccessor(const std::vector<glm::vec4>& v) { return append("accessors", accessorOf(v, "VEC4", kFloat)); }
+  int addAccessor(const std::vector<glm::mat4>& v) { return append("accessors", accessorOf(v, "MAT4", kFloat)); }
+  int addAccessor(const std::vector<glm::u16vec4>& v) {
+    return append("accessors", accessorOf(v, "VEC4", kUnsignedShort));
+  }
   int addAccessor(const std::vector<std::uint32_t>& v) {
     return append("accessors", accessorOf(v, "SCALAR", kUnsignedInt));
   }
@@ -239,7 +244,9 @@ class Writer {
       result["rotation"] = {q.x, q.y, q.z, q.w};
       result["scale"] = arrayOf(node.scale, 3);
     }
-    if (node.probe) result["extras"] = gltf::probeExtras(*node.probe);
+    if (!node.morphWeights.empty()) result["weights"] = node.morphWeights;
+    if (node.skin >= 0) result["skin"] = node.skin;
+    if (json extras = gltf::nodeExtras(node); !extras.is_null()) result["extras"] = std::move(extras);
     return result;
   }
 
@@ -254,14 +261,43 @@ class Writer {
     const auto [found, isNew] = attributes_.try_emplace(mesh.get());
     if (!isNew) return found->second;
     json attributes = {{"POSITION", withBounds(addAccessor(mesh->positions), arrayOf(mesh->bounds.lower, 3),
-                                               arrayOf(mesh->bounds.upper, 3))},
-                       {"NORMAL", addAccessor(mesh->normals)}};
-    if (!mesh->tangents.empty()) attributes["TANGENT"] = addAccessor(mesh->tangents);
+                                               arrayOf(mesh->bounds.upper, 3))}};
+    // Flat normals follow a deformation in another way than given ones: none are written, so that they are computed.
+    const bool mayDeform = !mesh->targets.empty() || !mesh->joints.empty();
+    const bool hasNormals = !(mayDeform && mesh->hasFlatNormals);
+    if (hasNormals) attributes["NORMAL"] = addAccessor(mesh->normals);
+    if (hasNormals && !mesh->tangents.empty()) attributes["TANGENT"] = addAccessor(mesh->tangents);
     if (!mesh->uvs[0].empty()) attributes["TEXCOORD_0"] = addAccessor(mesh->uvs[0]);
     if (!mesh->uvs[1].empty()) attributes["TEXCOORD_1"] = addAccessor(mesh->uvs[1]);
     if (!mesh->colors.empty()) attributes["COLOR_0"] = addAccessor(mesh->colors);
+    if (!mesh->joints.empty()) {
+      attributes["JOINTS_0"] = addAccessor(mesh->joints);
+      attributes["WEIGHTS_0"] = addAccessor(mesh->jointWeights);
+    }
+    for (const MorphTarget& target : mesh->targets) targets_[mesh.get()].push_back(targetOf(target));
     indices_[mesh.get()] = addAccessor(mesh->indices);
     return found->second = attributes;
+  }
+
+  int addDeltas(const std::vector<glm::vec3>& deltas) {
+    Bounds bounds;
+    for (const glm::vec3& d : deltas) bounds.include(d);
+    return withBounds(addAccessor(deltas), arrayOf(bounds.lower, 3), arrayOf(bounds.upper, 3));
+  }
+
+  json targetOf(const MorphTarget& target) {
+    json result = json::object();
+    if (!target.positions.empty()) result["POSITION"] = addDeltas(target.positions);
+    if (!target.normals.empty()) result["NORMAL"] = addDeltas(target.normals);
+    if (!target.tangents.empty()) result["TANGENT"] = addDeltas(target.tangents);
+    return result;
+  }
+
+  void addSkins() {
+    for (const Skin& skin : scene_.skins)
+      append("skins", {{"name", skin.name},
+                       {"joints", skin.joints},
+                       {"inverseBindMatrices", addAccessor(skin.inverseBindMatrices)}});
   }
 
   // The instances of a node become the primitives of its mesh.
@@ -271,6 +307,7 @@ class Writer {
     for (const Instance& instance : scene_.instances) {
       json primitive = {{"attributes", attributesOf(instance.mesh)}, {"material", instance.material}};
       primitive["indices"] = indices_.at(instance.mesh.get());
+      if (!instance.mesh->targets.empty()) primitive["targets"] = targets_.at(instance.mesh.get());
       primitives[instance.node].push_back(std::move(primitive));
       names.try_emplace(instance.node, instance.mesh->name);
     }
@@ -323,7 +360,7 @@ class Writer {
     if (scene_.tracks.empty()) return;
     json channels = json::array(), samplers = json::array();
     for (const Track& track : scene_.tracks) {
-      static constexpr std::array kPaths = {"translation", "rotation", "scale"};
+      static constexpr std::array kPaths = {"translation", "rotation", "scale", "weights"};
       channels.push_back(
           {{"sampler", samplers.size()},
            {"target", {{"node", track.node}, {"path", kPaths.at(static_cast<std::size_t>(track.target))}}}});
@@ -334,14 +371,18 @@ class Writer {
 
   json samplerOf(const Track& track) {
     static constexpr std::array kNames = {"STEP", "LINEAR", "CUBICSPLINE"};
-    const bool rotation = track.target == TrackTarget::rotation;
-    const std::vector<glm::vec3> vectors(track.values.begin(), track.values.end());
+    const auto output = [&] {
+      if (track.target == TrackTarget::morphWeights) return addAccessor(track.weights);
+      if (track.target == TrackTarget::rotation) return addAccessor(track.values);
+      return addAccessor(std::vector<glm::vec3>(track.values.begin(), track.values.end()));
+    };
     return {{"input", withBounds(addAccessor(track.timesSeconds), json::array({track.timesSeconds.front()}),
                                  json::array({track.timesSeconds.back()}))},
-            {"output", rotation ? addAccessor(track.values) : addAccessor(vectors)},
+            {"output", output()},
             {"interpolation", kNames.at(static_cast<std::size_t>(track.interpolation))}};
   }
 
+  static constexpr int kUnsignedShort = 5123;
   static constexpr int kUnsignedInt = 5125;
   static constexpr int kFloat = 5126;
 
@@ -352,6 +393,7 @@ class Writer {
   std::map<std::pair<int, bool>, int> images_;  // by texture and whether encoded as sRGB
   std::map<const Mesh*, json> attributes_;
   std::map<const Mesh*, int> indices_;
+  std::map<const Mesh*, json> targets_;
 };
 
 }  // namespace

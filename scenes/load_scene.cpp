@@ -82,7 +82,7 @@ void checkFileIsMeant(const std::string& path, const std::string& reference) {
 Scene loadFile(Spec spec, const std::string& reference, const std::optional<Environment>& environment) {
   checkFileIsMeant(spec.name, reference);
   const std::optional<std::string> mirror = takeParameter(spec, "mirror");
-  const std::vector<std::string> known = {"mirror", "environment", "shadows"};
+  const std::vector<std::string> known = {"mirror", "environment", "shadows", "fps", "time_step"};
   if (!spec.parameters.empty())
     throwInputError("scene '{}': parameter {}", reference, unknownMessage(spec.parameters.front().first, known));
   Scene scene = loadGltf(spec.name, environment);
@@ -90,12 +90,39 @@ Scene loadFile(Spec spec, const std::string& reference, const std::optional<Envi
   return scene;
 }
 
-Scene makeBuiltin(Spec spec, const std::optional<Environment>& environment) {
+// What `environment=` says, in the place of all environments of the scene.
+struct GivenEnvironments {
+  std::optional<Environment> first;
+  std::vector<EnvironmentChange> changes;
+};
+
+GivenEnvironments loadEnvironments(const std::optional<std::string>& text, std::vector<std::string>& warnings) {
+  GivenEnvironments given;
+  if (!text) return given;
+  for (const TimedEnvironment& timed : parseEnvironments(*text)) {
+    Environment environment = loadEnvironment(timed.text, warnings);
+    if (given.first)
+      given.changes.push_back({timed.timeSeconds, std::move(environment)});
+    else
+      given.first = std::move(environment);
+  }
+  return given;
+}
+
+std::optional<double> framesPerSecond(Spec& spec, const std::string& reference) {
+  const std::optional<std::string> fps = takeParameter(spec, "fps"), step = takeParameter(spec, "time_step");
+  if (fps && step) throwInputError("scene '{}': fps and time_step say the same, give one of them", reference);
+  if (!fps && !step) return std::nullopt;
+  const std::optional<double> value = parseNumber(fps ? *fps : *step);
+  if (!value || *value < 1e-3 || *value > 1e3)
+    throwInputError("scene '{}': {} wants a number from 0.001 to 1000, got '{}'", reference, fps ? "fps" : "time_step",
+                    fps ? *fps : *step);
+  return fps ? *value : 1.0 / *value;
+}
+
+Scene makeBuiltin(Spec spec) {
   spec.name.erase(0, kBuiltinPrefix.size());
-  Scene scene = makeBuiltinScene(spec);
-  if (environment) scene.environment = *environment;
-  finishScene(scene);
-  return scene;
+  return makeBuiltinScene(spec);
 }
 
 }  // namespace
@@ -105,12 +132,17 @@ std::shared_ptr<const Scene> loadScene(const std::string& reference) {
   const std::optional<std::string> shadows = takeParameter(spec, "shadows");
   if (shadows && *shadows != "none" && *shadows != "traced")
     throwInputError("scene '{}': shadows wants none or traced, got '{}'", reference, *shadows);
+  const std::optional<double> fps = framesPerSecond(spec, reference);
   std::vector<std::string> warnings;
-  std::optional<Environment> environment;
-  if (const std::optional<std::string> text = takeParameter(spec, "environment"))
-    environment = loadEnvironment(*text, warnings);
-  Scene scene = spec.name.starts_with(kBuiltinPrefix) ? makeBuiltin(std::move(spec), environment)
-                                                      : loadFile(std::move(spec), reference, environment);
+  const GivenEnvironments given = loadEnvironments(takeParameter(spec, "environment"), warnings);
+  Scene scene = spec.name.starts_with(kBuiltinPrefix) ? makeBuiltin(std::move(spec))
+                                                      : loadFile(std::move(spec), reference, given.first);
+  if (given.first) {
+    scene.environment = *given.first;
+    scene.environmentChanges = given.changes;
+    finishScene(scene);
+  }
+  if (fps) scene.framesPerSecond = *fps;
   if (shadows) scene.castsShadows = *shadows == "traced";
   scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
   return std::make_shared<const Scene>(std::move(scene));

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "scenes/deformation.h"
 #include "scenes/error.h"
 #include "scenes/scene.h"
 #include "scenes/tangents.h"
@@ -16,6 +17,21 @@ namespace pb {
 namespace {
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void checkDeformation(const Mesh& mesh) {
+  const std::size_t count = mesh.positions.size();
+  for (std::size_t t = 0; t < mesh.targets.size(); ++t) {
+    const MorphTarget& target = mesh.targets[t];
+    for (const auto* values : {&target.positions, &target.normals, &target.tangents})
+      if (values->size() != count && !values->empty())
+        throwInputError("mesh '{}' has {} vertices, morph target {} has {}", mesh.name, count, t, values->size());
+      else if (!std::ranges::all_of(*values, isFinite))
+        throwInputError("mesh '{}' has a morph target with values that are not finite: target {}", mesh.name, t);
+  }
+  if (mesh.joints.size() != mesh.jointWeights.size() || (!mesh.joints.empty() && mesh.joints.size() != count))
+    throwInputError("mesh '{}' has {} vertices, with {} joint indices and {} joint weights", mesh.name, count,
+                    mesh.joints.size(), mesh.jointWeights.size());
+}
 
 void checkInput(const Mesh& mesh) {
   const std::size_t count = mesh.positions.size();
@@ -36,6 +52,23 @@ void checkInput(const Mesh& mesh) {
   wantSize(mesh.uvs[0].size(), "texture coordinates");
   wantSize(mesh.uvs[1].size(), "second texture coordinates");
   wantSize(mesh.colors.size(), "colours");
+  checkDeformation(mesh);
+}
+
+// Weights of unused joints stand at joint 0, as glTF wants it.
+void normaliseJointWeights(Mesh& mesh) {
+  for (std::size_t v = 0; v < mesh.joints.size(); ++v) {
+    glm::vec4& weights = mesh.jointWeights[v];
+    const float sum = weights.x + weights.y + weights.z + weights.w;
+    const bool isValid = std::isfinite(sum) && sum > 1e-6f && glm::all(glm::greaterThanEqual(weights, glm::vec4(0.0f)));
+    if (!isValid)
+      throwInputError("mesh '{}' wants joint weights of at least 0 that sum to 1, got {} {} {} {} at vertex {}",
+                      mesh.name, weights.x, weights.y, weights.z, weights.w, v);
+    // Dividing what sums to 1 already would change its last bits.
+    if (std::abs(sum - 1.0f) > 1e-6f) weights /= sum;
+    for (int k = 0; k < 4; ++k)
+      if (weights[k] == 0.0f) mesh.joints[v][k] = 0;
+  }
 }
 
 // Twice the area as a vector along the face normal, in double precision: float products of tiny triangles underflow.
@@ -70,14 +103,23 @@ void splitVertices(Mesh& mesh) {
   gather(mesh.uvs[0]);
   gather(mesh.uvs[1]);
   gather(mesh.colors);
+  for (MorphTarget& target : mesh.targets) {
+    gather(target.positions);
+    gather(target.normals);
+    gather(target.tangents);
+  }
+  gather(mesh.joints);
+  gather(mesh.jointWeights);
   std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
 }
 
+// Of triangles that share no vertices. Those without area have any normal.
 void computeFlatNormals(Mesh& mesh) {
-  splitVertices(mesh);
   mesh.normals.resize(mesh.positions.size());
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-    const glm::vec3 normal = glm::vec3(glm::normalize(areaVector(mesh, t)));
+    const glm::dvec3 area = areaVector(mesh, t);
+    const double length = glm::length(area);
+    const glm::vec3 normal = length > 0.0 ? glm::vec3(area / length) : glm::vec3(0, 1, 0);
     std::fill_n(mesh.normals.begin() + static_cast<std::ptrdiff_t>(3 * t), 3, normal);
   }
 }
@@ -99,7 +141,9 @@ void computeUvPerMetre(Mesh& mesh) {
     const std::uint32_t* i = &mesh.indices[3 * t];
     const glm::dvec2 d1 = uv[i[1]] - uv[i[0]];
     const glm::dvec2 d2 = uv[i[2]] - uv[i[0]];
-    const double density = std::sqrt(std::abs(d1.x * d2.y - d2.x * d1.y) / glm::length(areaVector(mesh, t)));
+    const double area = glm::length(areaVector(mesh, t));
+    if (area <= 0.0) continue;
+    const double density = std::sqrt(std::abs(d1.x * d2.y - d2.x * d1.y) / area);
     for (int k = 0; k < 3; ++k) {
       mesh.uvPerMetre[i[k]] += static_cast<float>(density);
       ++adjacent[i[k]];
@@ -160,22 +204,50 @@ std::uint64_t hashOf(const Mesh& mesh) {
   h = hashOf(mesh.uvs[0], h);
   h = hashOf(mesh.uvs[1], h);
   h = hashOf(mesh.colors, h);
+  for (const MorphTarget& target : mesh.targets) {
+    h = hashOf(target.positions, h);
+    h = hashOf(target.normals, h);
+    h = hashOf(target.tangents, h);
+  }
+  if (!mesh.joints.empty()) h = hashOf(mesh.jointWeights, hashOf(mesh.joints, h));
   return hashOf(mesh.indices, h);
+}
+
+std::shared_ptr<const Mesh> withBoundsAndHash(Mesh mesh) {
+  mesh.bounds = {};
+  for (const std::uint32_t index : mesh.indices) mesh.bounds.include(mesh.positions[index]);
+  mesh.contentHash = hashOf(mesh);
+  return std::make_shared<const Mesh>(std::move(mesh));
 }
 
 }  // namespace
 
 std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents, int tangentUvSet) {
   checkInput(mesh);
-  dropTrianglesWithoutArea(mesh);
-  if (mesh.normals.empty()) computeFlatNormals(mesh);
+  normaliseJointWeights(mesh);
+  if (mesh.targets.empty() && mesh.joints.empty()) dropTrianglesWithoutArea(mesh);
+  mesh.hasFlatNormals = mesh.normals.empty();
+  if (mesh.hasFlatNormals) {
+    splitVertices(mesh);
+    computeFlatNormals(mesh);
+  }
   normaliseNormals(mesh);
   if (needsTangents && mesh.tangents.empty()) computeTangents(mesh, tangentUvSet);
   computeUvPerMetre(mesh);
   computeSmoothingGroups(mesh);
-  for (const std::uint32_t index : mesh.indices) mesh.bounds.include(mesh.positions[index]);
-  mesh.contentHash = hashOf(mesh);
-  return std::make_shared<const Mesh>(std::move(mesh));
+  return withBoundsAndHash(std::move(mesh));
+}
+
+std::shared_ptr<const Mesh> finishDeformedMesh(Mesh mesh) {
+  for (const glm::vec3& p : mesh.positions)
+    for (const float number : {p.x, p.y, p.z})
+      if (!(std::abs(number) <= kLargestWorldTransform))
+        throwInputError("deformed vertices stand within {:g} m, one of mesh '{}' is at {:g}", kLargestWorldTransform,
+                        mesh.name, number);
+  mesh.isDeformed = true;
+  if (mesh.hasFlatNormals) computeFlatNormals(mesh);
+  computeUvPerMetre(mesh);
+  return withBoundsAndHash(std::move(mesh));
 }
 
 }  // namespace pb

@@ -1,9 +1,11 @@
 #include "scenes/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
+#include <span>
 
 #include "scenes/error.h"
 #include "scenes/snapshot.h"
@@ -51,31 +53,142 @@ glm::vec4 slerp(const glm::vec4& a, const glm::vec4& b, float t) {
   return {q.x, q.y, q.z, q.w};
 }
 
-// Hermite spline of glTF 2.0, appendix C.5, between keys k and k + 1 that are `step` seconds apart.
-glm::vec4 cubicSpline(const Track& track, std::size_t k, float t, float step) {
-  const glm::vec4& v0 = track.values[3 * k + 1];
-  const glm::vec4& b0 = track.values[3 * k + 2];
-  const glm::vec4& a1 = track.values[3 * k + 3];
-  const glm::vec4& v1 = track.values[3 * k + 4];
+// Hermite spline of glTF 2.0, appendix C.5, from v0 to v1, `step` seconds later, with the out-tangent b0 and the
+// in-tangent a1.
+template <class T>
+T hermite(const T& v0, const T& b0, const T& a1, const T& v1, float t, float step) {
   const float t2 = t * t, t3 = t2 * t;
   return (2 * t3 - 3 * t2 + 1) * v0 + step * (t3 - 2 * t2 + t) * b0 + (-2 * t3 + 3 * t2) * v1 + step * (t3 - t2) * a1;
 }
 
+// Where a time lies between the keys: t of the way from key `first` to `second`, `step` seconds later.
+struct BetweenKeys {
+  std::size_t first, second;
+  float t, step;
+};
+BetweenKeys locate(const std::vector<float>& times, double timeSeconds) {
+  const auto time = static_cast<float>(timeSeconds);
+  if (time <= times.front()) return {0, 0, 0.0f, 0.0f};
+  if (time >= times.back()) return {times.size() - 1, times.size() - 1, 0.0f, 0.0f};
+  const auto k = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin()) - 1;
+  const float step = times[k + 1] - times[k];
+  return {k, k + 1, (time - times[k]) / step, step};
+}
+
+// at(key, part) is what stands at a key: its value or, of a cubic spline, its in-tangent, value and out-tangent.
+template <class At, class Mix>
+auto interpolate(const Track& track, const BetweenKeys& keys, const At& at, const Mix& mix) {
+  const bool spline = track.interpolation == Interpolation::cubicSpline;
+  const std::size_t value = spline ? 1 : 0;
+  if (keys.first == keys.second || track.interpolation == Interpolation::step) return at(keys.first, value);
+  if (spline)
+    return hermite(at(keys.first, 1), at(keys.first, 2), at(keys.second, 0), at(keys.second, 1), keys.t, keys.step);
+  return mix(at(keys.first, 0), at(keys.second, 0), keys.t);
+}
+
+// Numbers a value of a weight track has, 0 if its length is no multiple of the keys'.
+std::size_t weightsPerValue(const Track& track) {
+  const std::size_t values = track.timesSeconds.size() * valuesPerKey(track);
+  return values == 0 || track.weights.size() % values != 0 ? 0 : track.weights.size() / values;
+}
+
+void checkNumbers(const std::string& node, std::span<const float> numbers) {
+  for (const float number : numbers)
+    if (!(std::abs(number) <= kLargestTransform))
+      throwInputError("animation of node '{}' wants numbers from -{:g} to {:g}, got {:g}", node, kLargestTransform,
+                      kLargestTransform, number);
+}
+
+// Of a track of morph weights.
+void checkWeights(const Node& node, const Track& track) {
+  if (node.morphWeights.empty() || weightsPerValue(track) != node.morphWeights.size())
+    throwInputError("animation of node '{}' has {} morph weights for {} keys of {} morph targets", node.name,
+                    track.weights.size(), track.timesSeconds.size(), node.morphWeights.size());
+  checkNumbers(node.name, track.weights);
+}
+
 void checkTrack(const Scene& scene, const Track& track) {
+  const bool isOfWeights = track.target == TrackTarget::morphWeights;
   const std::string& node = scene.nodes.at(static_cast<std::size_t>(track.node)).name;
-  if (track.timesSeconds.empty() || track.values.size() != track.timesSeconds.size() * valuesPerKey(track))
+  if (track.timesSeconds.empty() ||
+      (!isOfWeights && track.values.size() != track.timesSeconds.size() * valuesPerKey(track)))
     throwInputError("animation of node '{}' has {} values for {} keys", node, track.values.size(),
                     track.timesSeconds.size());
   for (std::size_t k = 0; k < track.timesSeconds.size(); ++k)
     if (!std::isfinite(track.timesSeconds[k]) || (k > 0 && track.timesSeconds[k] <= track.timesSeconds[k - 1]))
       throwInputError("animation of node '{}' wants increasing key times, got {} at key {}", node,
                       track.timesSeconds[k], k);
+  if (isOfWeights) return checkWeights(scene.nodes[static_cast<std::size_t>(track.node)], track);
   if (track.target == TrackTarget::rotation) return;
-  for (const glm::vec4& value : track.values)
-    for (const float number : {value.x, value.y, value.z})
-      if (!(std::abs(number) <= kLargestTransform))
-        throwInputError("animation of node '{}' wants numbers from -{:g} to {:g}, got {:g}", node, kLargestTransform,
-                        kLargestTransform, number);
+  for (const glm::vec4& value : track.values) checkNumbers(node, std::array{value.x, value.y, value.z});
+}
+
+void checkSkin(const Scene& scene, const Skin& skin) {
+  if (skin.joints.empty() || skin.inverseBindMatrices.size() != skin.joints.size())
+    throwInputError("skin '{}' wants joints and as many inverse bind matrices, got {} and {}", skin.name,
+                    skin.joints.size(), skin.inverseBindMatrices.size());
+  for (const int joint : skin.joints)
+    if (joint < 0 || static_cast<std::size_t>(joint) >= scene.nodes.size())
+      throwInputError("skin '{}' wants joints that are nodes of the scene, got node {} of {}", skin.name, joint,
+                      scene.nodes.size());
+}
+
+void checkWave(const Node& node) {
+  const Wave& w = *node.wave;
+  const bool isFinite = std::isfinite(w.amplitude) && std::isfinite(w.skew) && std::isfinite(w.length) &&
+                        std::isfinite(w.wavelength) && std::isfinite(w.periodSeconds);
+  if (!isFinite || !(std::min({w.length, w.wavelength, w.periodSeconds}) > 0.0f))
+    throwInputError(
+        "the wave of node '{}' wants finite numbers, length, wavelength and period above 0, got amplitude {}, length "
+        "{}, "
+        "wavelength {}, skew {}, period {}",
+        node.name, w.amplitude, w.length, w.wavelength, w.skew, w.periodSeconds);
+}
+
+// The mesh's joints and morph targets are those of the instance's node.
+void checkDeformation(const Scene& scene, const Instance& instance) {
+  const Mesh& mesh = *instance.mesh;
+  const Node& node = scene.nodes.at(static_cast<std::size_t>(instance.node));
+  if (!mesh.targets.empty() && node.morphWeights.size() != mesh.targets.size())
+    throwInputError("node '{}' has {} morph weights, its mesh '{}' has {} morph targets", node.name,
+                    node.morphWeights.size(), mesh.name, mesh.targets.size());
+  if (node.skin < 0 || mesh.joints.empty()) return;
+  const Skin& skin = scene.skins.at(static_cast<std::size_t>(node.skin));
+  for (std::size_t v = 0; v < mesh.joints.size(); ++v)
+    for (int k = 0; k < 4; ++k)
+      if (const std::size_t joint = mesh.joints[v][k]; joint >= skin.joints.size())
+        throwInputError("mesh '{}' has a joint out of range: vertex {} wants joint {} of {} in skin '{}'", mesh.name, v,
+                        joint, skin.joints.size(), skin.name);
+}
+
+void finishDeformations(Scene& scene) {
+  for (const Skin& skin : scene.skins) checkSkin(scene, skin);
+  for (const Instance& instance : scene.instances) {
+    Node& node = scene.nodes.at(static_cast<std::size_t>(instance.node));
+    if (node.morphWeights.empty()) node.morphWeights.resize(instance.mesh->targets.size(), 0.0f);
+    checkDeformation(scene, instance);
+  }
+  for (const Node& node : scene.nodes) {
+    checkNumbers(node.name, node.morphWeights);
+    if (node.wave) checkWave(node);
+  }
+}
+
+// Black faces are what environments without a cube map have.
+void finishEnvironments(Scene& scene) {
+  const auto addFaces = [](Environment& environment) {
+    if (environment.faces.empty()) environment.faces.assign(6, ImageRgba(1, 1, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
+  };
+  addFaces(scene.environment);
+  double before = 0.0;
+  for (EnvironmentChange& change : scene.environmentChanges) {
+    addFaces(change.environment);
+    if (!(change.timeSeconds > before) || !std::isfinite(change.timeSeconds))
+      throwInputError("environments of scene '{}' want increasing times above 0, '{}' has {} s after {} s", scene.name,
+                      change.environment.name, change.timeSeconds, before);
+    scene.durationSeconds = std::max(scene.durationSeconds, 2.0 * change.timeSeconds - before);
+    before = change.timeSeconds;
+  }
 }
 
 // What is scaled to a line or a point has no area and no normals.
@@ -89,8 +202,10 @@ void warnAboutCollapsed(Scene& scene) {
                                  glm::length(glm::cross(m[2], m[0]))});
     const int node = scene.instances[i].node;
     if (area >= kSmallestArea || !named.insert(node).second) continue;
-    scene.warnings.push_back(fmt::format("node '{}' is scaled to nothing at the start: its mesh is not seen",
-                                         scene.nodes[static_cast<std::size_t>(node)].name));
+    std::string warning = fmt::format("node '{}' is scaled to nothing at the start: its mesh is not seen",
+                                      scene.nodes[static_cast<std::size_t>(node)].name);
+    if (std::ranges::find(scene.warnings, warning) == scene.warnings.end())  // scenes may be finished twice
+      scene.warnings.push_back(std::move(warning));
   }
 }
 
@@ -206,31 +321,35 @@ bool ownsProbe(const Scene& scene, const Instance& instance) {
   return settings ? settings->enabled && hasSpecularLobe(material) : material.isSpecularDominant;
 }
 
+bool deforms(const Scene& scene, const Instance& instance) {
+  const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
+  return node.wave || !instance.mesh->targets.empty() || (node.skin >= 0 && !instance.mesh->joints.empty());
+}
+
 glm::vec4 sampleTrack(const Track& track, double timeSeconds) {
-  const std::vector<float>& times = track.timesSeconds;
   const std::size_t perKey = valuesPerKey(track);
-  const std::size_t middle = perKey / 2;  // a cubic spline's value stands between its tangents
-  const auto time = static_cast<float>(timeSeconds);
-  if (time <= times.front()) return track.values[middle];
-  if (time >= times.back()) return track.values[(times.size() - 1) * perKey + middle];
-  const auto k = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin()) - 1;
-  const float step = times[k + 1] - times[k];
-  const float t = (time - times[k]) / step;
-  switch (track.interpolation) {
-    case Interpolation::step:
-      return track.values[k];
-    case Interpolation::cubicSpline:
-      return cubicSpline(track, k, t, step);
-    case Interpolation::linear:
-      break;
+  const auto at = [&](std::size_t key, std::size_t part) { return track.values[key * perKey + part]; };
+  const auto mix = [&](const glm::vec4& a, const glm::vec4& b, float t) {
+    return track.target == TrackTarget::rotation ? slerp(a, b, t) : glm::mix(a, b, t);
+  };
+  return interpolate(track, locate(track.timesSeconds, timeSeconds), at, mix);
+}
+
+std::vector<float> sampleWeights(const Track& track, double timeSeconds) {
+  const std::size_t count = weightsPerValue(track), perKey = valuesPerKey(track);
+  const BetweenKeys keys = locate(track.timesSeconds, timeSeconds);
+  std::vector<float> weights;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = [&](std::size_t key, std::size_t part) { return track.weights[(key * perKey + part) * count + i]; };
+    const auto mix = [](float a, float b, float t) { return glm::mix(a, b, t); };
+    weights.push_back(interpolate(track, keys, at, mix));
   }
-  if (track.target == TrackTarget::rotation) return slerp(track.values[k], track.values[k + 1], t);
-  return glm::mix(track.values[k], track.values[k + 1], t);
+  return weights;
 }
 
 void addFramingCamera(Scene& scene) {
   Bounds bounds;
-  for (const auto& [world, mesh] : worldMeshes(scene, 0.0)) bounds.include(transformed(mesh->bounds, world));
+  for (const WorldMesh& m : worldMeshes(scene, 0.0)) bounds.include(transformed(m.mesh->bounds, m.worldFromObject));
   if (bounds.empty()) bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
   const glm::vec3 centre = bounds.centre();
   const float radius = std::max(0.5f * glm::length(bounds.extent()), 1e-3f);
@@ -254,6 +373,7 @@ void finishScene(Scene& scene) {
   for (std::size_t n = 0; n < scene.nodes.size(); ++n)
     if (scene.nodes[n].parent >= static_cast<int>(n))
       throwInputError("node '{}' of scene '{}' stands before its parent", scene.nodes[n].name, scene.name);
+  finishDeformations(scene);
   for (const Track& track : scene.tracks) {
     checkTrack(scene, track);
     scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(track.timesSeconds.back()));
@@ -262,9 +382,11 @@ void finishScene(Scene& scene) {
     checkScreen(scene, screen);
     scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(screen.periodSeconds));
   }
+  for (const Node& node : scene.nodes)
+    if (node.wave)
+      scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(node.wave->periodSeconds));
+  finishEnvironments(scene);
   warnAboutCollapsed(scene);
-  if (scene.environment.faces.empty())
-    scene.environment.faces.assign(6, ImageRgba(1, 1, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)));
   if (scene.cameras.empty()) {
     addFramingCamera(scene);
     scene.notes.emplace_back("no camera in the scene: added one that frames it");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_precision.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -45,6 +46,13 @@ struct Texture {
 // All levels from level 0; texels must be linear.
 Texture makeTexture(std::string name, ImageRgba level0);
 
+// What a morph target adds to a mesh at weight 1, one entry a vertex. Normals and tangents may be empty.
+struct MorphTarget {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::vec3> tangents;
+};
+
 // Triangles of one material (a glTF primitive), indexed. All arrays but the optional ones have one entry a vertex.
 struct Mesh {
   std::string name;
@@ -55,7 +63,14 @@ struct Mesh {
   std::vector<glm::vec4> colors;              // optional; linear
   std::vector<std::uint32_t> indices;         // 3 a triangle, counter-clockwise seen from outside
 
+  // Of meshes at rest that may deform (scenes/deformation.h).
+  std::vector<MorphTarget> targets;
+  std::vector<glm::u16vec4> joints;     // optional; indices into Skin::joints, with
+  std::vector<glm::vec4> jointWeights;  // >= 0, of sum 1
+
   // Made by finishMesh().
+  bool hasFlatNormals = false;                 // computed, because none were given
+  bool isDeformed = false;                     // one shape of many with the same topology (scenes/deformation.h)
   std::vector<float> uvPerMetre;               // sqrt(UV area / area) in object space, mean of the adjacent triangles
   std::vector<std::uint32_t> smoothingGroups;  // one a triangle: triangles that share a vertex are of one group
   Bounds bounds;
@@ -65,9 +80,10 @@ struct Mesh {
 };
 
 // Completes a mesh: computes flat normals where there are none (splitting vertices), tangents if `needsTangents` and
-// there are none (from the texture coordinates of the given set, splitting vertices), and the derived members. Drops
-// triangles without area. Throws an input Error naming the mesh for NaN or infinite positions, and for indices out of
-// range.
+// there are none (from the texture coordinates of the given set, splitting vertices), and the derived members. Makes
+// joint weights sum to 1. Drops triangles without area, unless a deformation may give them one. Throws an input Error
+// naming the mesh for what is not finite, for indices out of range, for members of different lengths and for joint
+// weights that can't sum to 1.
 std::shared_ptr<const Mesh> finishMesh(Mesh mesh, bool needsTangents = false, int tangentUvSet = 0);
 
 // Perceptual roughness below which a metal counts as specular-dominant.
@@ -117,6 +133,17 @@ struct ProbeSettings {
 // three, a determinant, still fits into float.
 inline constexpr float kLargestTransform = 1e9f, kLargestWorldTransform = 1e12f;
 
+// A wave that runs along +X through an object and moves its vertices along Z: at x >= 0 by
+// amplitude * (x / length) * sin(2 pi (x / wavelength + skew * y - t / periodSeconds)). What lies at x <= 0 is held, as
+// by a flag's staff. Object space, metres.
+struct Wave {
+  float amplitude = 0.1f;      // at x = length
+  float length = 1.0f;         // > 0
+  float wavelength = 1.0f;     // > 0
+  float skew = 0.0f;           // periods a metre along Y: crests lean
+  float periodSeconds = 1.0f;  // > 0
+};
+
 struct Node {
   std::string name;
   int parent = -1;  // always smaller than the node's own index
@@ -125,6 +152,18 @@ struct Node {
   glm::vec3 scale{1.0f};
   std::optional<glm::mat4> matrix;  // instead of the three above; not animated
   std::optional<ProbeSettings> probe;
+  // Deformation of its instances. Instances whose mesh has joints stand where the skin's joints are, not at the node.
+  std::vector<float> morphWeights;  // one a morph target of its meshes
+  std::optional<Wave> wave;
+  int skin = -1;  // index into Scene::skins
+};
+
+// Nodes that move a mesh (glTF 2.0, section 3.7.3): a vertex p goes to the sum of
+// weight * worldFromNode(joint) * inverseBindMatrix * p over its joints.
+struct Skin {
+  std::string name;
+  std::vector<int> joints;                     // nodes
+  std::vector<glm::mat4> inverseBindMatrices;  // one a joint
 };
 
 // One mesh at one node. Instances are numbered as they stand in Scene::instances; ids in images are index + 1.
@@ -151,27 +190,37 @@ struct Camera {
   float zNear = 0.1f;
 };
 
-enum class TrackTarget { translation, rotation, scale };
+enum class TrackTarget { translation, rotation, scale, morphWeights };
 enum class Interpolation { step, linear, cubicSpline };
 
 // Key frames of one property of one node. Values are xyz or, for rotations, xyzw; cubic splines hold
-// (in-tangent, value, out-tangent) for each key (glTF 2.0, appendix C). Times increase strictly.
+// (in-tangent, value, out-tangent) for each key (glTF 2.0, appendix C). Times increase strictly. Morph weights stand in
+// `weights` instead, where each value is one number a target.
 struct Track {
   int node = 0;
   TrackTarget target = TrackTarget::translation;
   Interpolation interpolation = Interpolation::linear;
   std::vector<float> timesSeconds;
   std::vector<glm::vec4> values;
+  std::vector<float> weights;
 };
 
-// Value of a track, held constant before its first and after its last key.
+// Value of a track, held constant before its first and after its last key. sampleWeights() is for tracks of morph
+// weights, sampleTrack() for all others.
 glm::vec4 sampleTrack(const Track& track, double timeSeconds);
+std::vector<float> sampleWeights(const Track& track, double timeSeconds);
 
 struct Environment {
   std::string name = "sky";
   shading::Sky sky;              // with toGlow.w = 1 the faces below are the environment
   std::vector<ImageRgba> faces;  // six square faces in GL order, or one black texel a face if not used
   shading::Ambient ambient;      // light of the environment on diffuse surfaces
+};
+
+// Another environment that takes the place of the one before from a time on.
+struct EnvironmentChange {
+  double timeSeconds = 0.0;
+  Environment environment;
 };
 
 // A picture that a program of shading/screen.glsl draws anew for every time, and that materials show as their emission.
@@ -190,19 +239,29 @@ struct Scene {
   std::vector<Screen> screens;
   std::vector<Material> materials;
   std::vector<Node> nodes;
+  std::vector<Skin> skins;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;  // at least one
   std::vector<Track> tracks;
-  Environment environment;
+  Environment environment;                            // from time 0 on
+  std::vector<EnvironmentChange> environmentChanges;  // times > 0, increasing
   bool castsShadows = false;      // of lights on diffuse surfaces: traced in the reference, shadow-mapped in the raster
   double framesPerSecond = 30.0;  // frame f is the scene at time f / framesPerSecond, looped over durationSeconds
-  double durationSeconds = 0.0;   // end of the longest track or screen's loop; 0: nothing moves
+  double durationSeconds = 0.0;   // end of what lasts longest (see finishScene()); 0: nothing moves
   float probeNear = 0.01f;        // near plane of cube captures, metres
   std::optional<Bounds> room;     // world space: the box of probes without one of their own
   std::vector<std::string> warnings;  // what the loader ignored, one sentence each
   std::vector<std::string> notes;     // what the loader added (default camera, sky, ...)
+
+  // 0: `environment`, 1 and up: the changes.
+  const Environment& environmentAt(std::size_t index) const {
+    return index == 0 ? environment : environmentChanges[index - 1].environment;
+  }
 };
+
+// Whether the instance's mesh is another one at every time.
+bool deforms(const Scene& scene, const Instance& instance);
 
 // Whether the material reflects or refracts specularly at all.
 bool hasSpecularLobe(const Material& material);
@@ -211,15 +270,17 @@ bool hasSpecularLobe(const Material& material);
 // settings at the node, a specular-dominant one.
 bool ownsProbe(const Scene& scene, const Instance& instance);
 
-// Last steps of building any scene: checks indices, tracks and the transforms at time 0, adds a camera that frames
-// everything if there is none, computes durationSeconds, gives an unused environment its black faces.
+// Last steps of building any scene: checks indices, tracks, skins and the transforms at time 0, adds a camera that
+// frames everything if there is none, gives unused environments their black faces, and computes durationSeconds: the
+// longest of all tracks, of the periods of screens and waves, and of the environments, of which the last one is there
+// as long as the one before it.
 void finishScene(Scene& scene);
 
 // A camera that sees the whole box from the front and a little above.
 void addFramingCamera(Scene& scene);
 
-// "builtin:NAME[?k=v..]" or a path to .gltf/.glb, with options environment=FILE|sky|...,
-// shadows=none|traced and mirror=NODE|all.
+// "builtin:NAME[?k=v..]" or a path to .gltf/.glb, with options environment=FILE|sky|..[;FILE|sky|..@SECONDS]..,
+// shadows=none|traced, fps=F or time_step=SECONDS, and mirror=NODE|all.
 // Throws an input Error for anything that is not a scene.
 std::shared_ptr<const Scene> loadScene(const std::string& reference);
 

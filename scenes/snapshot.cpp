@@ -11,6 +11,8 @@
 #include <map>
 #include <type_traits>
 
+#include "scenes/camera_path.h"
+#include "scenes/deformation.h"
 #include "scenes/dfg_table.h"
 #include "scenes/error.h"
 #include "scenes/luminance.h"
@@ -41,11 +43,18 @@ void checkWorldMatrix(const Scene& scene, const Node& node, const glm::mat4& wor
                         kLargestWorldTransform, node.name, scene.name, number, timeSeconds);
 }
 
+// The nodes at one time.
+struct ScenePose {
+  std::vector<glm::mat4> world;
+  std::vector<std::vector<float>> morphWeights;
+};
+
 std::vector<glm::mat4> worldMatrices(const Scene& scene, double timeSeconds) {
   std::vector<Pose> poses;
   poses.reserve(scene.nodes.size());
   for (const Node& node : scene.nodes) poses.push_back({node.translation, node.rotation, node.scale});
   for (const Track& track : scene.tracks) {
+    if (track.target == TrackTarget::morphWeights) continue;
     const glm::vec4 value = sampleTrack(track, timeSeconds);
     Pose& pose = poses[static_cast<std::size_t>(track.node)];
     switch (track.target) {
@@ -57,6 +66,8 @@ std::vector<glm::mat4> worldMatrices(const Scene& scene, double timeSeconds) {
         break;
       case TrackTarget::rotation:
         pose.rotation = glm::quat(value.w, value.x, value.y, value.z);
+        break;
+      case TrackTarget::morphWeights:
         break;
     }
   }
@@ -70,10 +81,67 @@ std::vector<glm::mat4> worldMatrices(const Scene& scene, double timeSeconds) {
   return world;
 }
 
-// Inverse transpose up to a positive factor: the matrix of cofactors, which exists for singular matrices too.
-glm::mat3 normalMatrixOf(const glm::mat3& m) {
-  const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return glm::determinant(m) < 0.0f ? -cofactors : cofactors;
+ScenePose poseOf(const Scene& scene, double timeSeconds) {
+  ScenePose pose{worldMatrices(scene, timeSeconds), {}};
+  for (const Node& node : scene.nodes) pose.morphWeights.push_back(node.morphWeights);
+  for (const Track& track : scene.tracks)
+    if (track.target == TrackTarget::morphWeights)
+      pose.morphWeights[static_cast<std::size_t>(track.node)] = sampleWeights(track, timeSeconds);
+  return pose;
+}
+
+std::vector<glm::mat4> jointMatrices(const Skin& skin, const ScenePose& pose) {
+  std::vector<glm::mat4> matrices;
+  for (std::size_t j = 0; j < skin.joints.size(); ++j)
+    matrices.push_back(pose.world[static_cast<std::size_t>(skin.joints[j])] * skin.inverseBindMatrices[j]);
+  return matrices;
+}
+
+WorldMesh worldMesh(const Scene& scene, const Instance& instance, const ScenePose& pose, double timeSeconds) {
+  const auto n = static_cast<std::size_t>(instance.node);
+  const Node& node = scene.nodes[n];
+  const Mesh& mesh = *instance.mesh;
+  WorldMesh result{pose.world[n], instance.mesh, false};
+  if (deforms(scene, instance)) {
+    MeshPose meshPose{.morphWeights = {}, .wave = node.wave, .timeSeconds = timeSeconds, .jointMatrices = {}};
+    if (!mesh.targets.empty()) meshPose.morphWeights = pose.morphWeights[n];
+    if (node.skin >= 0 && !mesh.joints.empty()) {
+      meshPose.jointMatrices = jointMatrices(scene.skins[static_cast<std::size_t>(node.skin)], pose);
+      result.worldFromObject = glm::mat4(1.0f);
+      // A skin that mirrors does so as a whole.
+      result.mirrored = glm::determinant(glm::mat3(meshPose.jointMatrices.front())) < 0.0f;
+    }
+    result.mesh = deform(mesh, meshPose);
+  }
+  if (glm::determinant(glm::mat3(result.worldFromObject)) < 0.0f) result.mirrored = !result.mirrored;
+  return result;
+}
+
+std::vector<WorldMesh> worldMeshes(const Scene& scene, const ScenePose& pose, double timeSeconds) {
+  std::vector<WorldMesh> result;
+  result.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances) result.push_back(worldMesh(scene, instance, pose, timeSeconds));
+  return result;
+}
+
+SnapshotInstance snapshotInstance(const WorldMesh& placed, const Instance& instance, int source) {
+  const glm::mat4& matrix = placed.worldFromObject;
+  SnapshotInstance result;
+  result.source = source;
+  result.mesh = placed.mesh;
+  result.material = instance.material;
+  result.worldFromObject = matrix;
+  result.normalMatrix = normalMatrixOf(glm::mat3(matrix));
+  result.uvScale = 1.0f / std::cbrt(std::max(std::abs(glm::determinant(glm::mat3(matrix))), 1e-12f));
+  result.mirrored = placed.mirrored;
+  result.worldBounds = transformed(placed.mesh->bounds, matrix);
+  return result;
+}
+
+std::size_t environmentIndexAt(const Scene& scene, double timeSeconds) {
+  const auto next =
+      std::ranges::upper_bound(scene.environmentChanges, timeSeconds, {}, &EnvironmentChange::timeSeconds);
+  return static_cast<std::size_t>(next - scene.environmentChanges.begin());
 }
 
 shading::Light worldLight(const PunctualLight& light, const glm::mat4& world) {
@@ -87,14 +155,14 @@ shading::Light worldLight(const PunctualLight& light, const glm::mat4& world) {
   return result;
 }
 
-shading::View cameraView(const Camera& camera, const glm::mat4& world, double aspect) {
-  const float tangent = std::tan(0.5f * camera.verticalFov);
+shading::View cameraView(float verticalFov, float zNear, const glm::mat4& world, double aspect) {
+  const float tangent = std::tan(0.5f * verticalFov);
   // Scale and shear of the node do not belong to a camera (glTF 2.0, 3.10.2): rebuilt from its -Z and +Y.
   const glm::vec3 forward = shading::safeNormalize(-glm::vec3(world[2]));
   const glm::vec3 right = shading::safeNormalize(glm::cross(forward, glm::vec3(world[1])));
   const glm::vec3 up = glm::cross(right, forward);
   shading::View view;
-  view.origin = glm::vec4(glm::vec3(world[3]), camera.zNear);
+  view.origin = glm::vec4(glm::vec3(world[3]), zNear);
   view.forward = glm::vec4(forward, 0.0f);
   view.right = glm::vec4(tangent * static_cast<float>(aspect) * right, 0.0f);
   view.down = glm::vec4(-tangent * up, 0.0f);
@@ -129,15 +197,6 @@ void addProbes(Snapshot& snapshot, const std::vector<glm::mat4>& world) {
     placed.position = settings && settings->position
                           ? glm::vec3(world[static_cast<std::size_t>(node)] * glm::vec4(*settings->position, 1.0f))
                           : bounds[static_cast<std::size_t>(probe)].centre();
-  }
-}
-
-void findNearestProbes(Snapshot& snapshot) {
-  for (SnapshotInstance& instance : snapshot.instances) {
-    if (instance.probe >= 0 || snapshot.probes.empty()) continue;
-    const auto distance = [&](const Probe& p) { return glm::distance(p.position, instance.worldBounds.centre()); };
-    instance.nearestProbe =
-        static_cast<int>(std::ranges::min_element(snapshot.probes, {}, distance) - snapshot.probes.begin());
   }
 }
 
@@ -176,14 +235,31 @@ void addAreaLights(Snapshot& snapshot) {
       addAreaLightsOf(snapshot, e.instance, e.radiance);
 }
 
-const Camera& findCamera(const Scene& scene, const std::string& name) {
-  if (name.empty()) return scene.cameras.front();
+const Camera* findCamera(const Scene& scene, const std::string& name) {
+  if (name.empty()) return &scene.cameras.front();
+  const auto found = std::ranges::find(scene.cameras, name, &Camera::name);
+  return found == scene.cameras.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void refuseCamera(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
-  for (const Camera& camera : scene.cameras) {
-    if (camera.name == name) return camera;
-    names.push_back(camera.name);
-  }
+  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
+  names.emplace_back("orbit");
   throwInputError("scene '{}': camera {}", scene.name, unknownMessage(name, names));
+}
+
+Bounds boundsAtStart(const Scene& scene) {
+  Bounds bounds;
+  for (const WorldMesh& m : worldMeshes(scene, 0.0)) bounds.include(transformed(m.mesh->bounds, m.worldFromObject));
+  return bounds;
+}
+
+shading::View orbitView(const Orbit& orbit, double seconds, double aspect) {
+  const CameraPose pose = poseAt(orbit, seconds);
+  const glm::mat4 world = glm::translate(glm::mat4(1.0f), pose.eye) * glm::mat4_cast(pose.rotation);
+  // Reversed float depth loses nothing by a near plane that is near.
+  const float zNear = 1e-3f * glm::length(glm::vec2(orbit.radius, orbit.height));
+  return cameraView(orbit.verticalFov, zNear, world, aspect);
 }
 
 // Feeds plain values to one streaming hash.
@@ -240,9 +316,9 @@ void hashSurfacesAndLight(Hasher& hasher, const Snapshot& snapshot) {
   for (const shading::Light& light : snapshot.lights) hasher.value(light);
   for (const Texture& screen : snapshot.screens) hashTexels(hasher, screen);
   hasher.value(scene.castsShadows);
-  hasher.value(scene.environment.sky);
-  hasher.value(scene.environment.ambient);
-  for (const ImageRgba& face : scene.environment.faces) hasher.bytes(face.data(), face.size() * sizeof(glm::vec4));
+  hasher.value(snapshot.environment().sky);
+  hasher.value(snapshot.environment().ambient);
+  for (const ImageRgba& face : snapshot.environment().faces) hasher.bytes(face.data(), face.size() * sizeof(glm::vec4));
   for (const Probe& probe : snapshot.probes) {
     hasher.value(probe.position);
     hasher.value(probe.zNear);
@@ -262,12 +338,7 @@ shading::vec4 sampleSlot(const Texture* texture, const shading::TextureSlot& slo
 }  // namespace
 
 std::vector<WorldMesh> worldMeshes(const Scene& scene, double timeSeconds) {
-  const std::vector<glm::mat4> world = worldMatrices(scene, timeSeconds);
-  std::vector<WorldMesh> result;
-  result.reserve(scene.instances.size());
-  for (const Instance& instance : scene.instances)
-    result.push_back({world[static_cast<std::size_t>(instance.node)], instance.mesh});
-  return result;
+  return worldMeshes(scene, poseOf(scene, timeSeconds), timeSeconds);
 }
 
 std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene, int frame, const std::string& camera,
@@ -277,29 +348,35 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene,
   const Scene& s = *snapshot->scene;
   const double seconds = frame / s.framesPerSecond;
   snapshot->timeSeconds = s.durationSeconds > 0.0 ? std::fmod(seconds, s.durationSeconds) : 0.0;
-  const std::vector<glm::mat4> world = worldMatrices(s, snapshot->timeSeconds);
-  for (const Instance& instance : s.instances) {
-    const glm::mat4& matrix = world[static_cast<std::size_t>(instance.node)];
-    const float determinant = glm::determinant(glm::mat3(matrix));
-    SnapshotInstance result;
-    result.mesh = instance.mesh;
-    result.material = instance.material;
-    result.worldFromObject = matrix;
-    result.normalMatrix = normalMatrixOf(glm::mat3(matrix));
-    result.uvScale = 1.0f / std::cbrt(std::max(std::abs(determinant), 1e-12f));
-    result.mirrored = determinant < 0.0f;
-    result.worldBounds = transformed(instance.mesh->bounds, matrix);
-    snapshot->instances.push_back(result);
-  }
+  snapshot->environmentIndex = environmentIndexAt(s, snapshot->timeSeconds);
+  const ScenePose pose = poseOf(s, snapshot->timeSeconds);
+  const std::vector<glm::mat4>& world = pose.world;
+  const std::vector<WorldMesh> meshes = worldMeshes(s, pose, snapshot->timeSeconds);
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    snapshot->instances.push_back(snapshotInstance(meshes[i], s.instances[i], static_cast<int>(i)));
   for (const PunctualLight& light : s.lights)
     snapshot->lights.push_back(worldLight(light, world[static_cast<std::size_t>(light.node)]));
   for (const Screen& screen : s.screens) snapshot->screens.push_back(renderScreen(screen, snapshot->timeSeconds));
   addProbes(*snapshot, world);
   findNearestProbes(*snapshot);
   addAreaLights(*snapshot);
-  const Camera& chosen = findCamera(s, camera);
-  snapshot->camera = cameraView(chosen, world[static_cast<std::size_t>(chosen.node)], aspect);
+  if (const Camera* chosen = findCamera(s, camera))
+    snapshot->camera =
+        cameraView(chosen->verticalFov, chosen->zNear, world[static_cast<std::size_t>(chosen->node)], aspect);
+  else if (const std::optional<Orbit> orbit = parseOrbit(camera, boundsAtStart(s)))
+    snapshot->camera = orbitView(*orbit, seconds, aspect);
+  else
+    refuseCamera(s, camera);
   return snapshot;
+}
+
+void findNearestProbes(Snapshot& snapshot) {
+  for (SnapshotInstance& instance : snapshot.instances) {
+    if (instance.probe >= 0 || snapshot.probes.empty()) continue;
+    const auto distance = [&](const Probe& p) { return glm::distance(p.position, instance.worldBounds.centre()); };
+    instance.nearestProbe =
+        static_cast<int>(std::ranges::min_element(snapshot.probes, {}, distance) - snapshot.probes.begin());
+  }
 }
 
 std::uint64_t contentHash(const Snapshot& snapshot) {
@@ -386,10 +463,9 @@ glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surfac
   }
   for (const shading::AreaLight& light : snapshot.areaLights)
     irradiance += shading::areaLightIrradiance(light, surface.position, surface.normal);
-  return highlights +
-         shading::localRadiance(surface, irradiance,
-                                shading::ambientRadiance(snapshot.scene->environment.ambient, surface.normal),
-                                coatAlbedo(surface, toViewer));
+  return highlights + shading::localRadiance(surface, irradiance,
+                                             shading::ambientRadiance(snapshot.environment().ambient, surface.normal),
+                                             coatAlbedo(surface, toViewer));
 }
 
 }  // namespace pb

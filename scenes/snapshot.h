@@ -15,7 +15,7 @@
 namespace pb {
 
 struct SnapshotInstance {
-  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Mesh> mesh;  // of a deforming instance: its shape at this time
   int material = 0;
   glm::mat4 worldFromObject;
   glm::mat3 normalMatrix;  // inverse transpose of the upper 3x3, not normalised
@@ -23,6 +23,7 @@ struct SnapshotInstance {
   bool mirrored = false;   // the transform reverses orientation
   Bounds worldBounds;
   int probe = -1;         // index into Snapshot::probes, -1 for none
+  int source = 0;         // index into Scene::instances
   int nearestProbe = -1;  // of instances without one of their own: the probe nearest to the centre of their bounds
 };
 
@@ -40,8 +41,9 @@ struct Probe {
 };
 
 struct Snapshot {
-  std::shared_ptr<const Scene> scene;  // materials, textures, environment
+  std::shared_ptr<const Scene> scene;  // materials, textures, environments
   double timeSeconds = 0.0;
+  std::size_t environmentIndex = 0;  // of the one at this time, for Scene::environmentAt()
   std::vector<SnapshotInstance> instances;
   std::vector<shading::Light> lights;
   std::vector<shading::AreaLight> areaLights;      // triangles of emissive materials, at most kMaxAreaLights
@@ -53,24 +55,31 @@ struct Snapshot {
   const Material& materialOf(const SnapshotInstance& instance) const {
     return scene->materials[static_cast<std::size_t>(instance.material)];
   }
+  const Environment& environment() const { return scene->environmentAt(environmentIndex); }
 };
 
 // Emissive instances give light to diffuse surfaces as long as they have no more triangles than this in all, the
 // brightest first; those that don't fit are only seen.
 inline constexpr std::size_t kMaxAreaLights = 64;
 
-// Every instance's mesh with its world transform; for bounds before there is a camera. Throws an input Error naming the
-// node if a world transform holds numbers beyond kLargestWorldTransform.
+// Every instance's mesh as it is at that time, with its world transform; for bounds before there is a camera. Skinned
+// meshes are in world space already. Throws an input Error naming the node if a world transform holds numbers beyond
+// kLargestWorldTransform, and naming the mesh for vertices beyond it.
 struct WorldMesh {
   glm::mat4 worldFromObject;
   std::shared_ptr<const Mesh> mesh;
+  bool mirrored = false;  // triangles are clockwise seen from outside, by the transform or by the skin's
 };
 std::vector<WorldMesh> worldMeshes(const Scene& scene, double timeSeconds);
 
-// The scene at `frame` (looped if it is animated) through the camera of that name ("" for the first).
-// aspect is width / height. Throws an input Error for an unknown camera and as worldMeshes() does.
+// The scene at `frame` (looped if it is animated) through the camera of that name ("" for the first) or on an orbit,
+// which goes on while the scene loops (parseOrbit() in scenes/camera_path.h). aspect is width / height. Throws an input
+// Error for an unknown camera and as worldMeshes() does.
 std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene, int frame, const std::string& camera,
                                              double aspect);
+
+// Sets nearestProbe of all instances that have no probe of their own.
+void findNearestProbes(Snapshot& snapshot);
 
 // Everything that determines a picture of this snapshot: geometry, transforms, materials, textures, lights,
 // environment, probes and camera. Equal hashes mean equal pictures.

@@ -187,6 +187,13 @@ std::uint32_t appendCopy(Mesh& mesh, std::uint32_t vertex) {
   append(mesh.uvs[0]);
   append(mesh.uvs[1]);
   append(mesh.colors);
+  for (MorphTarget& target : mesh.targets) {
+    append(target.positions);
+    append(target.normals);
+    append(target.tangents);
+  }
+  append(mesh.joints);
+  append(mesh.jointWeights);
   mesh.tangents.emplace_back(0.0f);
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
 }

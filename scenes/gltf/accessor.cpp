@@ -118,8 +118,7 @@ struct Source {
   std::optional<Elements> sparseValues;
 };
 
-Source locate(const Document& document, const tinygltf::Accessor& accessor) {
-  const int components = componentsOf(accessor);
+Source locate(const Document& document, const tinygltf::Accessor& accessor, int components) {
   Source source;
   if (accessor.bufferView >= 0)
     source.base =
@@ -150,21 +149,39 @@ void visit(const Source& source, std::size_t count, const Assign& assign) {
   }
 }
 
+float finiteAt(const Elements& elements, std::size_t i, int component, bool normalized, std::size_t element) {
+  const float value = floatAt(elements.at(i, component), elements.componentType, normalized);
+  if (!std::isfinite(value)) throwInputError("element {} is not finite", element);
+  return value;
+}
+
 }  // namespace
 
 FloatAccessor readFloats(const Document& document, int index) {
   const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
   return atPlace(fmt::format("accessors/{}", index), [&] {
-    const Source source = locate(document, accessor);
     const int components = componentsOf(accessor);
+    const Source source = locate(document, accessor, components);
     const glm::vec4 zero(0.0f, 0.0f, 0.0f, components < 4 ? 1.0f : 0.0f);
     FloatAccessor result{components, std::vector<glm::vec4>(accessor.count, zero)};
     visit(source, accessor.count, [&](std::size_t element, const Elements& elements, std::size_t i) {
-      for (int c = 0; c < components; ++c) {
-        const float value = floatAt(elements.at(i, c), elements.componentType, accessor.normalized);
-        if (!std::isfinite(value)) throwInputError("element {} is not finite", element);
-        result.elements[element][c] = value;
-      }
+      for (int c = 0; c < components; ++c)
+        result.elements[element][c] = finiteAt(elements, i, c, accessor.normalized, element);
+    });
+    return result;
+  });
+}
+
+std::vector<glm::mat4> readMatrices(const Document& document, int index) {
+  const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
+  return atPlace(fmt::format("accessors/{}", index), [&] {
+    // Columns of smaller components would be padded (glTF 2.0, section 3.6.2.4).
+    if (accessor.type != TINYGLTF_TYPE_MAT4 || accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      throwInputError("4x4 matrices of floats are wanted");
+    const Source source = locate(document, accessor, 16);
+    std::vector<glm::mat4> result(accessor.count, glm::mat4(0.0f));
+    visit(source, accessor.count, [&](std::size_t element, const Elements& elements, std::size_t i) {
+      for (int c = 0; c < 16; ++c) result[element][c / 4][c % 4] = finiteAt(elements, i, c, false, element);
     });
     return result;
   });
@@ -174,7 +191,7 @@ std::vector<std::uint32_t> readIndices(const Document& document, int index) {
   const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
   return atPlace(fmt::format("accessors/{}", index), [&] {
     if (accessor.type != TINYGLTF_TYPE_SCALAR) throwInputError("indices are scalars, got a vector");
-    const Source source = locate(document, accessor);
+    const Source source = locate(document, accessor, 1);
     std::vector<std::uint32_t> result(accessor.count, 0);
     visit(source, accessor.count, [&](std::size_t element, const Elements& elements, std::size_t i) {
       result[element] = indexAt(elements, i);

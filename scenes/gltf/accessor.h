@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct FloatAccessor {
 };
 
 FloatAccessor readFloats(const Document& document, int accessor);
+
+// Of an accessor of 4x4 matrices. All values are finite.
+std::vector<glm::mat4> readMatrices(const Document& document, int accessor);
 
 // Of an accessor of unsigned integers.
 std::vector<std::uint32_t> readIndices(const Document& document, int accessor);

@@ -1,5 +1,6 @@
 #include "scenes/gltf/animation.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -32,14 +33,24 @@ Track readTrack(const Document& document, const tinygltf::AnimationSampler& samp
   track.interpolation = interpolationOf(sampler.interpolation);
   const FloatAccessor times = readFloats(document, sampler.input);
   FloatAccessor values = readFloats(document, sampler.output);
-  const int wanted = target == TrackTarget::rotation ? 4 : 3;
+  const int wanted = target == TrackTarget::morphWeights ? 1 : target == TrackTarget::rotation ? 4 : 3;
   if (times.components != 1 || values.components != wanted)
     throwInputError("key times have 1 and values {} components, got {} and {}", wanted, times.components,
                     values.components);
   for (const glm::vec4& t : times.elements) track.timesSeconds.push_back(t.x);
+  if (target == TrackTarget::morphWeights) {
+    for (const glm::vec4& w : values.elements) track.weights.push_back(w.x);
+    return track;
+  }
   track.values = std::move(values.elements);
   if (target == TrackTarget::rotation) checkRotationKeys(track);
   return track;
+}
+
+bool hasMorphTargets(const tinygltf::Model& model, std::size_t node) {
+  const int mesh = model.nodes[node].mesh;
+  return mesh >= 0 && std::ranges::any_of(model.meshes[static_cast<std::size_t>(mesh)].primitives,
+                                          [](const tinygltf::Primitive& p) { return !p.targets.empty(); });
 }
 
 class TrackReader {
@@ -57,14 +68,18 @@ class TrackReader {
  private:
   void readChannel(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel,
                    const std::string& place) {
-    static const std::map<std::string, TrackTarget> kTargets = {
-        {"translation", TrackTarget::translation}, {"rotation", TrackTarget::rotation}, {"scale", TrackTarget::scale}};
+    static const std::map<std::string, TrackTarget> kTargets = {{"translation", TrackTarget::translation},
+                                                                {"rotation", TrackTarget::rotation},
+                                                                {"scale", TrackTarget::scale},
+                                                                {"weights", TrackTarget::morphWeights}};
     const auto n = static_cast<std::size_t>(channel.target_node);
     if (sceneNodes_[n] < 0) return;
     const std::string property = fmt::format("{} of {}", channel.target_path, placeOfNode(document_, n));
     const auto target = kTargets.find(channel.target_path);
     if (target == kTargets.end()) return warnings_.push_back(fmt::format("{}: {} is not animated", place, property));
-    if (!document_.model.nodes[n].matrix.empty())
+    if (target->second == TrackTarget::morphWeights && !hasMorphTargets(document_.model, n))
+      return warnings_.push_back(fmt::format("{}: {} is ignored, its mesh has no morph targets", place, property));
+    if (target->second != TrackTarget::morphWeights && !document_.model.nodes[n].matrix.empty())
       throwInputError("an animated node has no matrix, {} has one", placeOfNode(document_, n));
     if (!animated_.insert({n, target->second}).second)
       return warnings_.push_back(fmt::format("{}: {} is ignored, it is animated twice", place, property));

@@ -180,6 +180,30 @@ Environment readEnvironment(const Document& document, const json& value, const s
   return environment;
 }
 
+json toJson(const Environment& source, const AddBufferView& addBufferView) {
+  json environment = {{"name", source.name}, {"ambient", toJson(source.ambient)}};
+  if (source.sky.toGlow.w > 0.5f)
+    for (const ImageRgba& face : source.faces) environment["faces"].push_back(addBufferView(encodeExr(rgbOf(face))));
+  else
+    environment["sky"] = toJson(source.sky);
+  return environment;
+}
+
+// Whether times increase is for finishScene() to check.
+std::vector<EnvironmentChange> readEnvironmentChanges(const Document& document, const json& values,
+                                                      const std::string& place, std::vector<std::string>& warnings) {
+  if (!values.is_array()) throwInputError("{} wants an array, got {}", place, values.dump());
+  std::vector<EnvironmentChange> changes;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string at = fmt::format("{}/{}", place, i);
+    EnvironmentChange& change = changes.emplace_back();
+    change.timeSeconds = number(member(values[i], "fromSeconds", at), at + "/fromSeconds", 1e-6, 1e6);
+    change.environment = readEnvironment(document, member(values[i], "environment", at), at + "/environment", warnings);
+    warnOfUnknownMembers(values[i], "", at, {"fromSeconds", "environment"}, warnings);
+  }
+  return changes;
+}
+
 bool readShadows(const json& value, const std::string& place) {
   if (value != "none" && value != "traced")
     throwInputError("{} wants \"none\" or \"traced\", got {}", place, value.dump());
@@ -250,11 +274,15 @@ bool readOwnExtras(const Document& document, const json& own, Scene& scene) {
   const std::string place = "extras.probebench";
   const json& schema = member(own, "schema", place);
   if (schema != 1) throwInputError("{} wants schema 1, got {}", place, schema.dump());
-  warnOfUnknownMembers(own, "", place,
-                       {"schema", "environment", "screens", "shadows", "probeNear", "room", "framesPerSecond"},
-                       scene.warnings);
+  warnOfUnknownMembers(
+      own, "", place,
+      {"schema", "environment", "environmentChanges", "screens", "shadows", "probeNear", "room", "framesPerSecond"},
+      scene.warnings);
   if (own.contains("environment"))
     scene.environment = readEnvironment(document, own["environment"], place + "/environment", scene.warnings);
+  if (own.contains("environmentChanges"))
+    scene.environmentChanges =
+        readEnvironmentChanges(document, own["environmentChanges"], place + "/environmentChanges", scene.warnings);
   if (own.contains("screens")) scene.screens = readScreens(own["screens"], place + "/screens", scene.warnings);
   if (own.contains("shadows")) scene.castsShadows = readShadows(own["shadows"], place + "/shadows");
   if (own.contains("probeNear"))
@@ -328,6 +356,30 @@ std::optional<ProbeSettings> readProbeExtras(const json& extras, const std::stri
   return settings;
 }
 
+std::optional<Wave> readWaveExtras(const json& extras, const std::string& node, std::vector<std::string>& warnings) {
+  const std::string place = "extras.probebench";
+  if (!extras.is_object() || !extras.contains("probebench")) return std::nullopt;
+  const json& own = extras["probebench"];
+  if (!own.is_object()) throwInputError("{} wants an object, got {}", place, own.dump());
+  warnOfUnknownMembers(own, node + ": ", place, {"wave"}, warnings);
+  if (!own.contains("wave")) return std::nullopt;
+  const json& value = own["wave"];
+  const std::string at = place + "/wave";
+  if (!value.is_object()) throwInputError("{} wants an object, got {}", at, value.dump());
+  warnOfUnknownMembers(value, node + ": ", at, {"amplitude", "length", "wavelength", "skew", "periodSeconds"},
+                       warnings);
+  Wave wave;
+  const auto read = [&](const char* key, double minimum, float& target) {
+    target = static_cast<float>(number(value.value(key, json(target)), at + "/" + key, minimum, 1e6));
+  };
+  read("amplitude", -1e6, wave.amplitude);
+  read("length", 1e-6, wave.length);
+  read("wavelength", 1e-6, wave.wavelength);
+  read("skew", -1e6, wave.skew);
+  read("periodSeconds", 1e-3, wave.periodSeconds);
+  return wave;
+}
+
 void readMaterialExtras(const json& extras, const std::string& owner, Material& material,
                         std::vector<std::string>& warnings) {
   const std::string place = "extras.probebench";
@@ -363,27 +415,34 @@ json materialExtras(const Material& material) {
 }
 
 json sceneExtras(const Scene& scene, const AddBufferView& addBufferView) {
-  const Environment& source = scene.environment;
-  json environment = {{"name", source.name}, {"ambient", toJson(source.ambient)}};
-  if (source.sky.toGlow.w > 0.5f)
-    for (const ImageRgba& face : source.faces) environment["faces"].push_back(addBufferView(encodeExr(rgbOf(face))));
-  else
-    environment["sky"] = toJson(source.sky);
   json own = {{"schema", 1},
-              {"environment", environment},
+              {"environment", toJson(scene.environment, addBufferView)},
               {"shadows", scene.castsShadows ? "traced" : "none"},
               {"probeNear", scene.probeNear},
               {"framesPerSecond", scene.framesPerSecond}};
+  for (const EnvironmentChange& change : scene.environmentChanges)
+    own["environmentChanges"].push_back(
+        {{"fromSeconds", change.timeSeconds}, {"environment", toJson(change.environment, addBufferView)}});
   for (const Screen& screen : scene.screens) own["screens"].push_back(toJson(screen));
   if (scene.room) own["room"] = toJson(*scene.room);
   return {{"probebench", own}};
 }
 
-json probeExtras(const ProbeSettings& probe) {
-  json settings = {{"enabled", probe.enabled}};
-  if (probe.position) settings["position"] = toJson(*probe.position);
-  if (probe.box) settings["box"] = toJson(*probe.box);
-  return {{"probe", settings}};
+json nodeExtras(const Node& node) {
+  json extras;
+  if (node.probe) {
+    json& settings = extras["probe"];
+    settings["enabled"] = node.probe->enabled;
+    if (node.probe->position) settings["position"] = toJson(*node.probe->position);
+    if (node.probe->box) settings["box"] = toJson(*node.probe->box);
+  }
+  if (node.wave)
+    extras["probebench"]["wave"] = {{"amplitude", node.wave->amplitude},
+                                    {"length", node.wave->length},
+                                    {"wavelength", node.wave->wavelength},
+                                    {"skew", node.wave->skew},
+                                    {"periodSeconds", node.wave->periodSeconds}};
+  return extras;
 }
 
 }  // namespace pb::gltf

@@ -1,7 +1,7 @@
-// What glTF can't say. Written to and read from scenes[].extras.probebench (sky, ambient light, screens, shadows, near
-// plane of probes, room, frame rate), materials[].extras.probebench (a metal's index of refraction, the screen that it
-// shows) and nodes[].extras.probe; their JSON Schema is results/schema/scene-extras.schema.json. Also read are the
-// extras of two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, diffuse, cubeCamera.near.
+// What glTF can't say. Written to and read from scenes[].extras.probebench (skies, ambient light, screens, shadows,
+// near plane of probes, room, frame rate), materials[].extras.probebench (a metal's index of refraction, the screen
+// that it shows) and nodes[].extras.probe; their JSON Schema is results/schema/scene-extras.schema.json. Also read are
+// the extras of two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, diffuse, cubeCamera.near.
 #pragma once
 
 #include <functional>
@@ -25,6 +25,10 @@ bool readSceneExtras(const Document& document, const nlohmann::json& extras, Sce
 std::optional<ProbeSettings> readProbeExtras(const nlohmann::json& extras, const std::string& node,
                                              std::vector<std::string>& warnings);
 
+// nodes[].extras.probebench: {"wave": {...}}, a deformation that glTF has not. Warnings name the node.
+std::optional<Wave> readWaveExtras(const nlohmann::json& extras, const std::string& node,
+                                   std::vector<std::string>& warnings);
+
 // materials[].extras.probebench. Warnings start with `owner`, the material.
 void readMaterialExtras(const nlohmann::json& extras, const std::string& owner, Material& material,
                         std::vector<std::string>& warnings);
@@ -33,8 +37,8 @@ void readMaterialExtras(const nlohmann::json& extras, const std::string& owner, 
 using AddBufferView = std::function<int(std::string_view bytes)>;
 
 nlohmann::json sceneExtras(const Scene& scene, const AddBufferView& addBufferView);
-nlohmann::json probeExtras(const ProbeSettings& probe);
 // null where there is nothing to say.
+nlohmann::json nodeExtras(const Node& node);
 nlohmann::json materialExtras(const Material& material);
 
 }  // namespace pb::gltf

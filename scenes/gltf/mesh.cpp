@@ -1,8 +1,11 @@
 #include "scenes/gltf/mesh.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "scenes/error.h"
 #include "scenes/gltf/accessor.h"
@@ -16,6 +19,7 @@ constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 // Vertex data by attribute name and the indices as stored, before triangulation.
 struct RawPrimitive {
   std::map<std::string, FloatAccessor> attributes;
+  std::vector<std::map<std::string, FloatAccessor>> targets;
   std::vector<std::uint32_t> indices;
 };
 
@@ -31,7 +35,11 @@ RawPrimitive readRaw(const Document& document, const tinygltf::Primitive& primit
   if (isDraco) {
     const nlohmann::json& extension = json["extensions"][kDracoExtension];
     DracoMesh decoded = decodeDraco(bytesOf(document, extension["bufferView"]), dracoIds(extension));
-    raw = {std::move(decoded.attributes), std::move(decoded.indices)};
+    raw = {std::move(decoded.attributes), {}, std::move(decoded.indices)};
+  }
+  for (const std::map<std::string, int>& target : primitive.targets) {
+    raw.targets.emplace_back();
+    for (const auto& [name, accessor] : target) raw.targets.back().emplace(name, readFloats(document, accessor));
   }
   // A Draco primitive may keep some attributes outside of the compressed data.
   for (const auto& [name, accessor] : primitive.attributes)
@@ -61,13 +69,35 @@ std::vector<std::uint32_t> triangulated(const std::vector<std::uint32_t>& indice
 
 // The attribute's elements as vectors of fewer components; empty if there is no such attribute.
 template <class Vector>
-std::vector<Vector> take(const RawPrimitive& raw, const std::string& name, int minComponents, int maxComponents) {
-  const auto found = raw.attributes.find(name);
-  if (found == raw.attributes.end()) return {};
+std::vector<Vector> take(const std::map<std::string, FloatAccessor>& attributes, const std::string& name,
+                         int minComponents, int maxComponents) {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return {};
   const FloatAccessor& values = found->second;
   if (values.components < minComponents || values.components > maxComponents)
     throwInputError("attribute {} wants {} components, got {}", name, maxComponents, values.components);
   return {values.elements.begin(), values.elements.end()};
+}
+
+// Indices were read as floats, which hold all of 16 bits.
+std::vector<glm::u16vec4> takeJoints(const RawPrimitive& raw) {
+  std::vector<glm::u16vec4> joints;
+  for (const glm::vec4& j : take<glm::vec4>(raw.attributes, "JOINTS_0", 4, 4)) {
+    if (glm::any(glm::lessThan(j, glm::vec4(0.0f))) || glm::any(glm::greaterThan(j, glm::vec4(65535.0f))) ||
+        j != glm::floor(j))
+      throwInputError("attribute JOINTS_0 wants whole numbers from 0 to 65535, got {} {} {} {}", j.x, j.y, j.z, j.w);
+    joints.emplace_back(j);
+  }
+  return joints;
+}
+
+MorphTarget takeTarget(const std::map<std::string, FloatAccessor>& attributes, bool hasNormals) {
+  MorphTarget target;
+  target.positions = take<glm::vec3>(attributes, "POSITION", 3, 3);
+  // Of flat normals, which are computed, and their tangents there is nothing to add to.
+  if (hasNormals) target.normals = take<glm::vec3>(attributes, "NORMAL", 3, 3);
+  if (hasNormals) target.tangents = take<glm::vec3>(attributes, "TANGENT", 3, 3);
+  return target;
 }
 
 bool isTriangleMode(int mode) {
@@ -86,21 +116,33 @@ std::string reasonToSkip(const tinygltf::Primitive& primitive) {
 }
 
 void warnIgnored(const tinygltf::Primitive& primitive, const std::string& place, std::vector<std::string>& warnings) {
-  if (!primitive.targets.empty()) warnings.push_back(place + ": morph targets are ignored");
-  for (const auto& [name, accessor] : primitive.attributes)
+  for (const auto& [name, accessor] : primitive.attributes) {
     if (name == "TEXCOORD_2" || name == "COLOR_1")
       warnings.push_back(fmt::format("{}: attribute {} is ignored", place, name));
+    if (name == "JOINTS_1")
+      warnings.push_back(place + ": attribute JOINTS_1 is ignored, the first four joints of a vertex move it");
+  }
+  std::set<std::string> unread;
+  for (const std::map<std::string, int>& target : primitive.targets)
+    for (const auto& [name, accessor] : target)
+      if (name != "POSITION" && name != "NORMAL" && name != "TANGENT") unread.insert(name);
+  for (const std::string& name : unread)
+    warnings.push_back(fmt::format("{}: attribute {} of morph targets is ignored", place, name));
 }
 
 Mesh toMesh(const RawPrimitive& raw, int mode, std::string name) {
   Mesh mesh;
   mesh.name = std::move(name);
-  mesh.positions = take<glm::vec3>(raw, "POSITION", 3, 3);
-  mesh.normals = take<glm::vec3>(raw, "NORMAL", 3, 3);
+  const std::map<std::string, FloatAccessor>& attributes = raw.attributes;
+  mesh.positions = take<glm::vec3>(attributes, "POSITION", 3, 3);
+  mesh.normals = take<glm::vec3>(attributes, "NORMAL", 3, 3);
   // Tangents belong to given normals; for flat ones they must be ignored (glTF 2.0, section 3.7.2.1).
-  if (!mesh.normals.empty()) mesh.tangents = take<glm::vec4>(raw, "TANGENT", 4, 4);
-  mesh.uvs = {take<glm::vec2>(raw, "TEXCOORD_0", 2, 2), take<glm::vec2>(raw, "TEXCOORD_1", 2, 2)};
-  mesh.colors = take<glm::vec4>(raw, "COLOR_0", 3, 4);
+  if (!mesh.normals.empty()) mesh.tangents = take<glm::vec4>(attributes, "TANGENT", 4, 4);
+  mesh.uvs = {take<glm::vec2>(attributes, "TEXCOORD_0", 2, 2), take<glm::vec2>(attributes, "TEXCOORD_1", 2, 2)};
+  mesh.colors = take<glm::vec4>(attributes, "COLOR_0", 3, 4);
+  for (const auto& target : raw.targets) mesh.targets.push_back(takeTarget(target, !mesh.normals.empty()));
+  mesh.joints = takeJoints(raw);
+  mesh.jointWeights = take<glm::vec4>(attributes, "WEIGHTS_0", 4, 4);
   mesh.indices = triangulated(raw.indices, mode);
   return mesh;
 }

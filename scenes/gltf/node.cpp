@@ -29,6 +29,14 @@ void readTransform(const tinygltf::Node& source, Node& node) {
   node.rotation = {q.w, q.x, q.y, q.z};
 }
 
+// The node's own weights, else its mesh's (glTF 2.0, section 3.7.2.2).
+void readMorphWeights(const tinygltf::Model& model, const tinygltf::Node& source, Node& node) {
+  if (source.mesh < 0) return;
+  const tinygltf::Mesh& mesh = model.meshes[static_cast<std::size_t>(source.mesh)];
+  const std::vector<double>& weights = source.weights.empty() ? mesh.weights : source.weights;
+  for (const double weight : weights) node.morphWeights.push_back(static_cast<float>(weight));
+}
+
 std::string nameOf(const Document& document, std::size_t node) {
   const std::string& name = document.model.nodes[node].name;
   return name.empty() ? fmt::format("node {}", node) : name;
@@ -68,8 +76,11 @@ Node readNode(const Document& document, std::size_t n, std::vector<std::string>&
     Node node;
     node.name = nameOf(document, n);
     readTransform(document.model.nodes[n], node);
+    readMorphWeights(document.model, document.model.nodes[n], node);
     const nlohmann::json& json = document.json["nodes"][n];
-    if (json.contains("extras")) node.probe = readProbeExtras(json["extras"], place, warnings);
+    if (!json.contains("extras")) return node;
+    node.probe = readProbeExtras(json["extras"], place, warnings);
+    node.wave = readWaveExtras(json["extras"], place, warnings);
     return node;
   });
 }

@@ -22,7 +22,9 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kLargestRadiance = 1e9;
 constexpr auto kLargestNumber = static_cast<double>(kLargestTransform);
 
-enum class Type { index, indices, size, number, numbers, text, boolean, object };
+constexpr std::size_t kAnyLength = std::numeric_limits<std::size_t>::max();
+
+enum class Type { index, indices, size, number, numbers, text, boolean, object, array };
 
 // What a member must be. `place` is a path in which '*' stands for every element of an array or object; `key` '*' for
 // every member. Indices point into the array at the path `target`; one that starts with '^' is relative to the object
@@ -92,6 +94,14 @@ constexpr std::array kRules = {
     sizeRule("accessors/*/sparse/values", "byteOffset"),
     required(typeRule(kPrimitive, "attributes", Type::object)),
     indexRule("meshes/*/primitives/*/attributes", "*", "accessors"),
+    typeRule(kPrimitive, "targets", Type::array),
+    indexRule("meshes/*/primitives/*/targets/*", "*", "accessors"),
+    numbersRule("meshes/*", "weights", kAnyLength),
+    numbersRule("nodes/*", "weights", kAnyLength),
+    required(indicesRule("skins/*", "joints", "nodes")),
+    indexRule("skins/*", "inverseBindMatrices", "accessors"),
+    indexRule("skins/*", "skeleton", "nodes"),
+    typeRule("skins/*", "name", Type::text),
     indexRule(kPrimitive, "indices", "accessors"),
     indexRule(kPrimitive, "material", "materials"),
     sizeRule(kPrimitive, "mode"),
@@ -260,7 +270,9 @@ void checkValue(const Cursor& owner, const Cursor& at, const Rule& rule, const j
     case Type::number:
       return checkNumber(at, rule);
     case Type::numbers:
-      if (!value.is_array() || value.size() != rule.length)
+      if (!value.is_array() && rule.length == kAnyLength)
+        throwInputError("{} wants an array of numbers, got {}", at.path, shown(value));
+      if (!value.is_array() || (rule.length != kAnyLength && value.size() != rule.length))
         throwInputError("{} wants an array of {} numbers, got {}", at.path, rule.length, shown(value));
       return forEachChild(at, [&](const Cursor& element) { checkNumber(element, rule); });
     case Type::text:
@@ -268,6 +280,9 @@ void checkValue(const Cursor& owner, const Cursor& at, const Rule& rule, const j
       return;
     case Type::boolean:
       if (!value.is_boolean()) throwInputError("{} wants true or false, got {}", at.path, shown(value));
+      return;
+    case Type::array:
+      if (!value.is_array()) throwInputError("{} wants an array, got {}", at.path, shown(value));
       return;
     case Type::object:
       if (!value.is_object()) throwInputError("{} wants an object, got {}", at.path, shown(value));
