@@ -4,6 +4,8 @@
 #include <bit>
 #include <optional>
 
+#include "raster/lookup.h"
+#include "raster/probe_layout.h"
 #include "raster/refresh.h"
 #include "scenes/error.h"
 #include "scenes/spec.h"
@@ -63,8 +65,52 @@ constexpr Choice<GeometryTerm> kGeometryTerms[] = {{"smith-correlated", Geometry
                                                    {"one", GeometryTerm::one},
                                                    {"smith-k", GeometryTerm::smithK},
                                                    {"cook-torrance", GeometryTerm::cookTorrance}};
-constexpr Choice<Coats> kCoats[] = {
-    {"nearest-probe", Coats::nearestProbe}, {"environment", Coats::environment}, {"none", Coats::none}};
+constexpr Choice<Coats> kCoats[] = {{"nearest-probe", Coats::nearestProbe},
+                                    {"blended-probes", Coats::blendedProbes},
+                                    {"environment", Coats::environment},
+                                    {"none", Coats::none}};
+constexpr Choice<CapturedFaces> kCapturedFaces[] = {
+    {"all", CapturedFaces::all}, {"no-top-bottom", CapturedFaces::noTopBottom}, {"top-half", CapturedFaces::topHalf}};
+constexpr Choice<Iterations> kIterations[] = {{"brute-force", Iterations::bruteForce},
+                                              {"incremental", Iterations::incremental}};
+constexpr Choice<ResolutionScale> kResolutionScales[] = {{"fixed", ResolutionScale::fixed},
+                                                         {"distance", ResolutionScale::distance}};
+constexpr Choice<ProbeFormat> kProbeFormats[] = {{"rgba16f", ProbeFormat::rgba16f},
+                                                 {"r11f-g11f-b10f", ProbeFormat::r11fG11fB10f},
+                                                 {"rgb9e5", ProbeFormat::rgb9e5},
+                                                 {"rgba8-srgb", ProbeFormat::rgba8Srgb}};
+constexpr Choice<Storage> kStorages[] = {
+    {"cube", Storage::cube}, {"dual-paraboloid", Storage::dualParaboloid}, {"octahedral", Storage::octahedral}};
+constexpr Choice<Placement> kPlacements[] = {{"stated", Placement::stated},
+                                             {"origin", Placement::origin},
+                                             {"box-centre", Placement::boxCentre},
+                                             {"centroid", Placement::centroid}};
+constexpr Choice<SelfReflection> kSelfReflections[] = {{"none", SelfReflection::none},
+                                                       {"split-parts", SelfReflection::splitParts}};
+constexpr Choice<bool> kSwitches[] = {{"on", true}, {"off", false}};
+
+bool parseNumberIn(std::string_view text, double minimum, double maximum, float& target) {
+  const std::optional<double> value = parseNumber(text);
+  if (!value || *value < minimum || *value > maximum) return false;
+  target = static_cast<float>(*value);
+  return true;
+}
+
+// Refuses unknown lookups and parameters with the lookup's own message.
+bool parseLookup(std::string_view text, Technique& technique) {
+  const Spec spec = parseSpec(text);
+  checkLookup(spec);
+  technique.lookup = spec;
+  return true;
+}
+
+// Refuses unknown kinds of sharing and parameters with their own message.
+bool parseSharing(std::string_view text, Technique& technique) {
+  const Spec spec = parseSpec(text);
+  checkSharing(spec);
+  technique.sharing = spec;
+  return true;
+}
 
 // Refuses unknown laws and parameters with the law's own message.
 bool parseFresnel(std::string_view text, Technique& technique) {
@@ -92,6 +138,12 @@ std::string printChoice(const Technique& technique) {
 std::string refreshNames() {
   std::string names;
   for (const RefreshPolicy& policy : refreshPolicies()) names += (names.empty() ? "" : " | ") + policy.name;
+  return names;
+}
+
+std::string lookupNames() {
+  std::string names;
+  for (const Lookup& lookup : lookups()) names += (names.empty() ? "" : " | ") + lookup.name;
   return names;
 }
 
@@ -142,13 +194,66 @@ std::vector<Axis> makeAxisTable() {
       {"geometry_term", "smith-correlated | one | smith-k | cook-torrance", "masking and shadowing of microfacets",
        "smith-k: Unreal Engine 4; cook-torrance: course documents",
        parseChoice<&Technique::geometryTerm, kGeometryTerms>, printChoice<&Technique::geometryTerm, kGeometryTerms>},
-      {"coats", "nearest-probe | environment | none",
+      {"coats", "nearest-probe | blended-probes | environment | none",
        "what dielectric coats of objects without a probe of their own reflect", "nearest-probe: every engine",
        parseChoice<&Technique::coats, kCoats>, printChoice<&Technique::coats, kCoats>},
       {"shadow_resolution", fmt::format("powers of two from {} to {}", kMinResolution, kMaxResolution),
        "texels along the edge of a shadow map's face, in scenes that cast shadows", "every engine: 512 to 4096",
        [](std::string_view text, Technique& t) { return parseResolution(text, t.shadowResolution); },
        [](const Technique& t) { return std::to_string(t.shadowResolution); }},
+      {"lookup", lookupNames(), "which texel a point sees in a direction",
+       "infinite: every textbook; box-proxy: Lagarde and Zanuttini 2012; distance-impostor: Szirmay-Kalos et al. 2005",
+       parseLookup, [](const Technique& t) { return printSpec(t.lookup); }},
+      {"faces", "all | no-top-bottom | top-half", "which parts of a cube are captured; the environment fills the rest",
+       "top-half: GTA V", parseChoice<&Technique::faces, kCapturedFaces>,
+       printChoice<&Technique::faces, kCapturedFaces>},
+      {"iterations", "brute-force | incremental",
+       "what bounce iterations after the first draw: everything again, or only what shows other probes",
+       "brute-force: course documents", parseChoice<&Technique::iterations, kIterations>,
+       printChoice<&Technique::iterations, kIterations>},
+      {"resolution_scale", "fixed | distance",
+       "whether probes farther from the camera have fewer texels than `resolution`",
+       "engines: reflection quality by distance", parseChoice<&Technique::resolutionScale, kResolutionScales>,
+       printChoice<&Technique::resolutionScale, kResolutionScales>},
+      {"format", "rgba16f | r11f-g11f-b10f | rgb9e5 | rgba8-srgb", "texels of cube maps",
+       "rgba16f: Unity, Unreal; r11f-g11f-b10f: GTA V; rgba8-srgb: course documents",
+       parseChoice<&Technique::format, kProbeFormats>, printChoice<&Technique::format, kProbeFormats>},
+      {"storage", "cube | dual-paraboloid | octahedral", "what a captured cube is converted to for lookups",
+       "dual-paraboloid: GTA V", parseChoice<&Technique::storage, kStorages>,
+       printChoice<&Technique::storage, kStorages>},
+      {"mips", "off | on", "whether smooth surfaces read mipmaps where they show a map smaller than it is",
+       "on: course documents", parseChoice<&Technique::mips, kSwitches>, printChoice<&Technique::mips, kSwitches>},
+      {"seamless", "on | off", "whether texels are filtered across the edges of faces",
+       "off: hardware before OpenGL 3.2", parseChoice<&Technique::seamless, kSwitches>,
+       printChoice<&Technique::seamless, kSwitches>},
+      {"hysteresis", "numbers from 0 to 0.99", "share of its earlier content that a map keeps when it is captured",
+       "engines: temporal blending of probes",
+       [](std::string_view text, Technique& t) { return parseNumberIn(text, 0.0, 0.99, t.hysteresis); },
+       [](const Technique& t) { return fmt::format("{:g}", t.hysteresis); }},
+      {"capture_textures", "on | off", "whether captures read the textures of surfaces",
+       "wished for in course documents", parseChoice<&Technique::captureTextures, kSwitches>,
+       printChoice<&Technique::captureTextures, kSwitches>},
+      {"capture_lod", "numbers from 0.01 to 1", "share of their triangles that meshes have in captures",
+       "GTA V: low levels of detail in reflections",
+       [](std::string_view text, Technique& t) { return parseNumberIn(text, 0.01, 1.0, t.captureLod); },
+       [](const Technique& t) { return fmt::format("{:g}", t.captureLod); }},
+      {"capture_far", "numbers from 0 to 1e9",
+       "metres from a probe beyond which captures show the environment; 0: everywhere",
+       "engines: clip planes of reflection probes",
+       [](std::string_view text, Technique& t) { return parseNumberIn(text, 0.0, 1e9, t.captureFar); },
+       [](const Technique& t) { return fmt::format("{:g}", t.captureFar); }},
+      {"capture_lights", "on | off", "whether captures show light of lights", "engines: lights left out of reflections",
+       parseChoice<&Technique::captureLights, kSwitches>, printChoice<&Technique::captureLights, kSwitches>},
+      {"placement", "stated | origin | box-centre | centroid",
+       "where probes stand; stated: where the scene says, else the centre of the box around the owner",
+       "origin: engines' scripts; box-centre: Unity's gizmo", parseChoice<&Technique::placement, kPlacements>,
+       printChoice<&Technique::placement, kPlacements>},
+      {"sharing", "none | distance?metres=D | count?probes=N", "which neighbours share one probe",
+       "course documents; engines: hand-placed probes serve many objects", parseSharing,
+       [](const Technique& t) { return printSpec(t.sharing); }},
+      {"self_reflection", "none | split-parts", "split-parts: each connected part of a mesh has a probe of its own",
+       "course documents", parseChoice<&Technique::selfReflection, kSelfReflections>,
+       printChoice<&Technique::selfReflection, kSelfReflections>},
   };
 }
 

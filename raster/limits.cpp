@@ -36,11 +36,14 @@ void checkSceneFits(const DeviceLimits& limits, const Scene& scene) {
                       limits.textureSizePx, texture.name, scene.name, level0.width(), level0.height());
     for (const ImageRgba& level : texture.levels) texels += static_cast<std::int64_t>(level.size());
   }
-  const int faceSize = scene.environment.faces.front().width();
-  if (faceSize > limits.cubeMapSizePx)
-    throwInputError("the device's cube maps have at most {} texels along an edge, environment '{}' has {}",
-                    limits.cubeMapSizePx, scene.environment.name, faceSize);
-  texels += std::int64_t{6} * faceSize * faceSize;
+  for (std::size_t i = 0; i <= scene.environmentChanges.size(); ++i) {
+    const Environment& environment = scene.environmentAt(i);
+    const int faceSize = environment.faces.front().width();
+    if (faceSize > limits.cubeMapSizePx)
+      throwInputError("the device's cube maps have at most {} texels along an edge, environment '{}' has {}",
+                      limits.cubeMapSizePx, environment.name, faceSize);
+    texels += std::int64_t{6} * faceSize * faceSize;
+  }
   checkBytes(limits, kTexelBytes * texels, "the scene's textures");
 }
 
@@ -78,9 +81,6 @@ void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int 
   if (technique.resolution < 1 || technique.resolution > limits.cubeMapSizePx)
     throwInputError("the device's cube maps have 1 to {} texels along an edge, got resolution {}", limits.cubeMapSizePx,
                     technique.resolution);
-  if (std::int64_t{6} * probes > limits.arrayLayers)
-    throwInputError("the device's array textures have at most {} layers, {} probes want {}", limits.arrayLayers, probes,
-                    std::int64_t{6} * probes);
   const std::int64_t depth = kDepthBytes * technique.resolution * technique.resolution;
   checkBytes(limits, probeBytes(technique, probes, filtered) + depth + imageBytes(widthPx, heightPx, samplesPerAxis),
              "the cube maps and the image's samples");

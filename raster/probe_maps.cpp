@@ -2,70 +2,75 @@
 
 #include <algorithm>
 
+#include "raster/gpu_structs.h"
+
 namespace pb {
-namespace {
-
-gl::Texture makeCubes(const gl::Functions& gl, int resolution, int probes, int levels) {
-  return gl::makeTexture(gl, {.target = GL_TEXTURE_CUBE_MAP_ARRAY,
-                              .format = GL_RGBA16F,
-                              .width = resolution,
-                              .height = resolution,
-                              .layers = 6 * probes,
-                              .levels = levels});
-}
-
-GLint layerOf(const ProbeFace& face) { return 6 * face.probe + face.face; }
-
-}  // namespace
 
 ProbeMaps::ProbeMaps(gl::Context& context, Programs& programs, int resolution, int probes, bool doubleBuffered,
                      ProbeFilter filter)
     : gl_(context.functions()),
       resolution_(resolution),
       levels_(filteredLevels(filter, resolution)),
-      shown_(makeCubes(gl_, resolution, probes, levels_ + 1)),
-      back_(doubleBuffered ? makeCubes(gl_, resolution, probes, 1) : gl::Texture()),
       depth_(gl::makeTexture(
-          gl_, {.target = GL_TEXTURE_2D, .format = GL_DEPTH_COMPONENT32F, .width = resolution, .height = resolution})),
-      unfiltered_(static_cast<std::size_t>(probes), 0) {
-  if (levels_ > 0) {
-    shownLayers_ = gl::makeView(shown_, {GL_TEXTURE_2D_ARRAY, GL_RGBA16F, levels_ + 1, 6 * probes});
-    filter_.emplace(context, programs, filter, GL_RGBA16F, resolution);
-  }
+          gl_, {.target = GL_TEXTURE_2D, .format = GL_DEPTH_COMPONENT32F, .width = resolution, .height = resolution})) {
+  for (int probe = 0; probe < probes; ++probe) maps_.push_back(makeMap(doubleBuffered));
+  if (levels_ > 0) filter_.emplace(context, programs, filter, GL_RGBA16F, resolution);
   context.check("allocating cube maps");
-  framebuffer_ = gl::makeLayerFramebuffer(gl_, captured(), depth_);
+  framebuffer_ = gl::makeLayerFramebuffer(gl_, maps_.front().captured(), depth_);
 }
 
-void ProbeMaps::bind() const { gl_.BindTextureUnit(gpu::kProbeUnit, shown_.id()); }
+ProbeMaps::Map ProbeMaps::makeMap(bool doubleBuffered) const {
+  const auto makeFaces = [&](int levels) {
+    return gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
+                                 .format = GL_RGBA16F,
+                                 .width = resolution_,
+                                 .height = resolution_,
+                                 .layers = 6,
+                                 .levels = levels});
+  };
+  Map map;
+  map.shownLayers = makeFaces(levels_ + 1);
+  map.shown = gl::makeView(map.shownLayers, {GL_TEXTURE_CUBE_MAP, GL_RGBA16F, levels_ + 1});
+  if (doubleBuffered) map.back = makeFaces(1);
+  return map;
+}
+
+void ProbeMaps::bind(int probe) const { gl_.BindTextureUnit(gpu::kProbeUnit, mapOf(probe).shown.id()); }
 
 RenderTarget ProbeMaps::target(const ProbeFace& face) {
-  gl::setColorLayer(framebuffer_, captured(), layerOf(face));
+  gl::setColorLayer(framebuffer_, mapOf(face.probe).captured(), face.face);
   return {framebuffer_.id(), resolution_, resolution_};
 }
 
 void ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
-  for (const ProbeFace& face : captured) unfiltered_[static_cast<std::size_t>(face.probe)] |= 1u << face.face;
+  bool isDoubleBuffered = false;
+  for (const ProbeFace& face : captured) {
+    Map& map = mapOf(face.probe);
+    map.unfiltered |= 1u << face.face;
+    if (map.back.id() == 0) continue;
+    isDoubleBuffered = true;
+    gl_.CopyImageSubData(map.back.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face.face, map.shownLayers.id(),
+                         GL_TEXTURE_2D_ARRAY, 0, 0, 0, face.face, resolution_, resolution_, 1);
+  }
   // Single-buffered captures are read in the texture that they were drawn to.
-  if (back_.id() == 0) return gl_.TextureBarrier();
-  for (const ProbeFace& face : captured)
-    gl_.CopyImageSubData(back_.id(), GL_TEXTURE_CUBE_MAP_ARRAY, 0, 0, 0, layerOf(face), shown_.id(),
-                         GL_TEXTURE_CUBE_MAP_ARRAY, 0, 0, 0, layerOf(face), resolution_, resolution_, 1);
+  if (!isDoubleBuffered) gl_.TextureBarrier();
 }
 
 bool ProbeMaps::isStale(const std::vector<bool>& wanted) const {
   if (!filter_) return false;
-  for (std::size_t probe = 0; probe < unfiltered_.size(); ++probe)
-    if (wanted[probe] && unfiltered_[probe] != 0) return true;
+  for (std::size_t probe = 0; probe < maps_.size(); ++probe)
+    if (wanted[probe] && maps_[probe].unfiltered != 0) return true;
   return false;
 }
 
 std::int64_t ProbeMaps::filter(const std::vector<bool>& wanted) {
   if (!isStale(wanted)) return 0;
   std::int64_t texels = 0;
-  for (std::size_t probe = 0; probe < unfiltered_.size(); ++probe) {
-    if (!wanted[probe] || unfiltered_[probe] == 0) continue;
-    texels += filter_->run(shownLayers_, static_cast<int>(probe), unfiltered_[probe]);
-    unfiltered_[probe] = 0;
+  for (std::size_t probe = 0; probe < maps_.size(); ++probe) {
+    Map& map = maps_[probe];
+    if (!wanted[probe] || map.unfiltered == 0) continue;
+    texels += filter_->run(map.shownLayers, 0, map.unfiltered);
+    map.unfiltered = 0;
   }
   return texels;
 }
@@ -74,7 +79,7 @@ std::array<Image, 6> ProbeMaps::read(int probe, int level) const {
   const int size = std::max(resolution_ >> level, 1);
   const std::size_t texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   std::vector<glm::vec3> faces(6 * texels);
-  gl_.GetTextureSubImage(shown_.id(), level, 0, 0, layerOf({probe, 0}), size, size, 6, GL_RGB, GL_FLOAT,
+  gl_.GetTextureSubImage(mapOf(probe).shownLayers.id(), level, 0, 0, 0, size, size, 6, GL_RGB, GL_FLOAT,
                          static_cast<GLsizei>(faces.size() * sizeof(glm::vec3)), faces.data());
   std::array<Image, 6> images;
   for (std::size_t face = 0; face < images.size(); ++face) {

@@ -1,5 +1,4 @@
-// The cube maps of all probes: RGBA16F, one cube of an array a probe, with filtered levels where a technique wants
-// them.
+// The cube maps of all probes: RGBA16F, a texture a probe, with filtered levels where a technique wants them.
 #pragma once
 
 #include <array>
@@ -8,7 +7,7 @@
 
 #include "raster/prefilter.h"
 #include "raster/refresh.h"
-#include "raster/scene_pass.h"
+#include "raster/render_target.h"
 #include "scenes/image.h"
 
 namespace pb {
@@ -20,8 +19,8 @@ class ProbeMaps {
   ProbeMaps(gl::Context& context, Programs& programs, int resolution, int probes, bool doubleBuffered,
             ProbeFilter filter);
 
-  // Lookups of the draws that follow read what is shown.
-  void bind() const;
+  // Lookups of the draws that follow read what that probe shows.
+  void bind(int probe) const;
 
   // Attaches the face for capture, with a depth buffer that all faces share.
   RenderTarget target(const ProbeFace& face);
@@ -38,18 +37,26 @@ class ProbeMaps {
   std::array<Image, 6> read(int probe, int level) const;
 
  private:
-  const gl::Texture& captured() const { return back_.id() != 0 ? back_ : shown_; }
+  struct Map {
+    gl::Texture shownLayers;  // the six faces with their levels
+    gl::Texture shown;        // the same as a cube map
+    gl::Texture back;         // six faces, only if double-buffered; level 0
+    FaceSet unfiltered = 0;
+
+    const gl::Texture& captured() const { return back.id() != 0 ? back : shownLayers; }
+  };
+
+  Map makeMap(bool doubleBuffered) const;
+  Map& mapOf(int probe) { return maps_[static_cast<std::size_t>(probe)]; }
+  const Map& mapOf(int probe) const { return maps_[static_cast<std::size_t>(probe)]; }
 
   const gl::Functions& gl_;
   int resolution_;
   int levels_;  // above level 0
-  gl::Texture shown_;
-  gl::Texture back_;         // only if double-buffered; level 0
-  gl::Texture shownLayers_;  // only if filtered: what is shown as an array
+  std::vector<Map> maps_;
   gl::Texture depth_;
   gl::Framebuffer framebuffer_;
   std::optional<CubeFilter> filter_;
-  std::vector<FaceSet> unfiltered_;  // by probe
 };
 
 }  // namespace pb

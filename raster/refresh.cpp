@@ -44,8 +44,9 @@ std::uint64_t visibleContentHash(const Snapshot& snapshot, int probe) {
   for (const shading::Light& light : snapshot.lights) mixIn(hash, light);
   for (const shading::AreaLight& light : snapshot.areaLights) mixIn(hash, light);
   if (!snapshot.screens.empty()) mixIn(hash, snapshot.timeSeconds);
-  mixIn(hash, snapshot.scene->environment.sky);
-  mixIn(hash, snapshot.scene->environment.ambient);
+  mixIn(hash, snapshot.environmentIndex);
+  mixIn(hash, snapshot.environment().sky);
+  mixIn(hash, snapshot.environment().ambient);
   return hash;
 }
 

@@ -7,7 +7,9 @@
 
 #include "raster/device.h"
 #include "raster/final_image.h"
+#include "raster/lookup.h"
 #include "raster/pass_timer.h"
+#include "raster/probe_layout.h"
 #include "raster/probe_maps.h"
 #include "raster/reflection.h"
 #include "raster/refresh/policies.h"
@@ -70,9 +72,10 @@ struct RasterSequence::Impl {
     FrameStats stats;
     PassTimes times;
   };
-  Frame renderFrame(const Snapshot& snapshot, PassTimer* timer);
+  Frame renderFrame(const Snapshot& sceneSnapshot, PassTimer* passTimer);
 
   bool isDynamic() const { return technique.probes == ProbeUse::dynamic; }
+  ShownProbes shownProbes(int hidden) const { return {probes ? &*probes : nullptr, mapShown, hidden}; }
   void allocateProbes(const Snapshot& snapshot);
   std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
   std::vector<bool> mapsShownAtFirst(const std::vector<ProbeFace>& due, std::size_t probeCount) const;
@@ -92,6 +95,7 @@ struct RasterSequence::Impl {
   std::optional<FinalImage> image;
   std::optional<ProbeMaps> probes;
   std::optional<PassTimer> timer;
+  ProbeLayout layout;
   RefreshHistory history;
   std::vector<bool> mapShown;     // by probe: lookups read its cube map, not the environment
   std::vector<bool> levelsShown;  // by probe: lookups read its filtered levels
@@ -99,7 +103,13 @@ struct RasterSequence::Impl {
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_,
                            int samplesPerAxis_)
-    : device(device_), technique(technique_), widthPx(widthPx_), heightPx(heightPx_), samplesPerAxis(samplesPerAxis_) {
+    : device(device_),
+      technique(technique_),
+      widthPx(widthPx_),
+      heightPx(heightPx_),
+      samplesPerAxis(samplesPerAxis_),
+      layout(technique_) {
+  checkLookup(technique.lookup);
   refreshPolicy(technique.refresh);  // refuses a bad one
   fresnelLaw(technique.fresnel);
   if (technique.bounces < 1) throwInputError("a frame has at least one bounce iteration, got {}", technique.bounces);
@@ -110,15 +120,15 @@ RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& techniq
   image.emplace(device.context, widthPx, heightPx, samplesPerAxis);
 }
 
-RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& snapshot, PassTimer* passTimer) {
+RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sceneSnapshot, PassTimer* passTimer) {
   device.context.makeCurrent();
+  const Snapshot& snapshot = layout.apply(sceneSnapshot);
   allocateProbes(snapshot);
   const std::vector<ProbeFace> due =
       isDynamic() ? dueFaces(technique.refresh, history, snapshot) : std::vector<ProbeFace>{};
   mapShown = mapsShownAtFirst(due, snapshot.probes.size());
   levelsShown = probesOfRoughLobes(technique, snapshot);
   scenePass->beginFrame(snapshot, passesOf(snapshot));
-  if (probes) probes->bind();
 
   Frame frame;
   FrameCounters& counters = frame.stats.counters;
@@ -127,7 +137,7 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sn
   updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
   for (int b = 0; isDynamic() && b < technique.bounces; ++b) iterate(due, passTimer, frame);
   frame.times.finalMs =
-      timed(passTimer, [&] { scenePass->draw(kFinalPass, image->target(), kNoProbe, mapShown, counters); });
+      timed(passTimer, [&] { scenePass->draw(kFinalPass, image->target(), shownProbes(kNoProbe), counters); });
   device.context.check("rendering a frame");
 
   advance(history, due, snapshot);
@@ -194,7 +204,7 @@ void RasterSequence::Impl::updateLevels(PassTimer* passTimer, Frame& frame) {
 
 void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, FrameCounters& counters) {
   for (const ProbeFace& f : faces) {
-    scenePass->draw(capturePass(f), probes->target(f), f.probe, mapShown, counters);
+    scenePass->draw(capturePass(f), probes->target(f), shownProbes(f.probe), counters);
     ++counters.facesCaptured;
   }
 }

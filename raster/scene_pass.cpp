@@ -8,17 +8,17 @@
 #include <tuple>
 
 #include "raster/culling.h"
+#include "raster/probe_maps.h"
 #include "raster/refraction.h"
 #include "scenes/closed_mesh.h"
 
 namespace pb {
 namespace {
 
-gpu::InstanceConstants constantsOf(const SnapshotInstance& instance, std::size_t index, int probe) {
+gpu::InstanceConstants constantsOf(const SnapshotInstance& instance) {
   return {.worldFromObject = instance.worldFromObject,
           .normalMatrix = glm::mat4(instance.normalMatrix),
-          .values = {instance.uvScale, static_cast<float>(std::max(probe, 0)), static_cast<float>(index + 1),
-                     instance.mirrored ? -1.0f : 1.0f},
+          .values = {instance.uvScale, 0.0f, static_cast<float>(instance.source + 1), instance.mirrored ? -1.0f : 1.0f},
           .volume = {std::cbrt(std::abs(glm::determinant(glm::mat3(instance.worldFromObject)))), 0.0f, 0.0f, 0.0f}};
 }
 
@@ -124,7 +124,9 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   snapshot_ = &snapshot;
   const bool isNewScene = !resources_ || resources_->scene() != snapshot.scene;
   if (isNewScene) resources_ = device_.resourcesOf(snapshot.scene);
+  resources_->showEnvironment(snapshot.environmentIndex);
   if (isNewScene || !drawsFit(snapshot)) buildDraws(snapshot);
+  showShapes();
   reflections_.clear();
   for (const SnapshotInstance& instance : snapshot.instances)
     reflections_.push_back(reflectionOf(technique_, snapshot, instance));
@@ -178,12 +180,11 @@ std::vector<const ScenePass::Draw*> ScenePass::shadowCasters(const gpu::ShadowFa
   return casters;
 }
 
-void ScenePass::draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
-                     FrameCounters& counters) {
+void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters) {
   beginPass(pass, target);
-  const std::vector<const Draw*> visible = visibleDraws(pass, hiddenProbe);
+  const std::vector<const Draw*> visible = visibleDraws(pass, probes.hidden);
   const auto firstBlended = std::ranges::find_if(visible, [](const Draw* draw) { return draw->isBlended(); });
-  drawSurfaces({visible.begin(), firstBlended}, pass, hiddenProbe, mapShown);
+  drawSurfaces({visible.begin(), firstBlended}, pass, probes);
   drawBackground();
   counters.draws += static_cast<std::int64_t>(visible.size()) + 1;
   counters.triangles += 1;
@@ -196,7 +197,7 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, int hiddenPro
   }
   if (firstBlended == visible.end()) return;
   const std::vector<const Draw*> blended(firstBlended, visible.end());
-  layers_->compose(target, [&] { drawSurfaces(blended, pass, hiddenProbe, mapShown); });
+  layers_->compose(target, [&] { drawSurfaces(blended, pass, probes); });
   ++counters.draws;
   ++counters.triangles;
 }
@@ -212,16 +213,16 @@ std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, in
   return visible;
 }
 
-void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, int hiddenProbe,
-                             const std::vector<bool>& mapShown) {
+void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes) {
   gl_.Disable(GL_CULL_FACE);
   Binder binder(*this, passes_[pass].view);
   for (const Draw* draw : draws) {
     const int probe = reflections_[draw->instance].probe;
     // A map may not be read while it is captured: by its owners, captured from inside, nor by what it is nearest to.
-    const bool isCaptured = probe != kNoProbe && probe == hiddenProbe;
+    const bool isCaptured = probe != kNoProbe && probe == probes.hidden;
     const bool isOwner = isCaptured && snapshot_->instances[draw->instance].probe == probe;
-    const bool showsProbe = !isCaptured && draw->showingProbe != 0 && mapShown[static_cast<std::size_t>(probe)];
+    const bool showsProbe = !isCaptured && draw->showingProbe != 0 && probes.shown[static_cast<std::size_t>(probe)];
+    if (showsProbe) probes.maps->bind(probe);
     if (draw->backFaces != 0) drawBackFaces(*draw, pass, binder);
     binder.bind(*draw, showsProbe ? draw->showingProbe : draw->showingEnvironment,
                 isOwner ? Faces::back : facesOf(*draw, passes_[pass].view));
@@ -233,11 +234,13 @@ void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t 
 // so that no object sees another's.
 std::vector<const ScenePass::Draw*> ScenePass::readBehind(const Draw& draw, std::size_t pass) const {
   const std::vector<Instance>& instances = snapshot_->scene->instances;
+  const auto nodeOf = [&](const Draw& d) {
+    return instances[static_cast<std::size_t>(snapshot_->instances[d.instance].source)].node;
+  };
   std::vector<const Draw*> parts;
   if (draw.backFaces == 0) return parts;
   for (const Draw& part : draws_)
-    if (part.backFaces != 0 && instances[part.instance].node == instances[draw.instance].node && isVisible(part, pass))
-      parts.push_back(&part);
+    if (part.backFaces != 0 && nodeOf(part) == nodeOf(draw) && isVisible(part, pass)) parts.push_back(&part);
   return parts;
 }
 
@@ -270,11 +273,20 @@ void ScenePass::drawIds(std::size_t pass, const RenderTarget& target) {
   }
 }
 
+// A deforming instance keeps its draw whatever its shape: topology is the same.
 bool ScenePass::drawsFit(const Snapshot& snapshot) const {
+  if (drawnEnvironment_ != snapshot.environmentIndex) return false;
   return draws_.size() == snapshot.instances.size() && std::ranges::all_of(draws_, [&](const Draw& draw) {
            const SnapshotInstance& instance = snapshot.instances[draw.instance];
-           return draw.source == instance.mesh && draw.material == instance.material;
+           const bool deforms = draw.source->isDeformed && instance.mesh->isDeformed;
+           return (draw.source == instance.mesh || deforms) && draw.material == instance.material;
          });
+}
+
+void ScenePass::showShapes() {
+  for (const Draw& draw : draws_)
+    if (const auto& mesh = snapshot_->instances[draw.instance].mesh; mesh->isDeformed)
+      resources_->mesh(draw.instance, mesh, draw.backFaces != 0);
 }
 
 // Blended surfaces last, then sorted by what is dear to change. Nothing here may depend on addresses or GL names: the
@@ -284,8 +296,9 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
   const std::string settings = techniqueDefines(technique_) + shadowDefines(snapshot) + areaLightDefines(snapshot);
   const std::string environmentLevels = filterDefines(technique_.filter, environmentSize);
   const std::string probeLevels = filterDefines(technique_.filter, technique_.resolution);
-  const EnvironmentSource source = environmentSource(snapshot.scene->environment, technique_.textureFilter);
+  const EnvironmentSource source = environmentSource(snapshot.environment(), technique_.textureFilter);
   background_ = device_.programs.background(source);
+  drawnEnvironment_ = snapshot.environmentIndex;
   draws_.clear();
   for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
     const SnapshotInstance& instance = snapshot.instances[i];
@@ -293,14 +306,13 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
     const SurfaceVariant variant = variantOf(snapshot, instance);
     const std::string defines = settings + refractionDefines(technique_, material) + conductorDefines(material);
     const bool hasBackFaces = readsBackFaces(technique_, material);
-    if (hasBackFaces) resources_->addInwardDistances(instance.mesh);
     const bool hasProbe = reflectionOf(technique_, snapshot, instance).source == ReflectionSource::probe;
     draws_.push_back(
         {.variant = variant,
          .material = instance.material,
          .instance = i,
          .source = instance.mesh,
-         .mesh = &resources_->mesh(instance.mesh),
+         .mesh = &resources_->mesh(i, instance.mesh, hasBackFaces),
          .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source, defines + environmentLevels),
          .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, defines + probeLevels) : 0,
          .cullsBackFaces = cullsBackFaces(material),
@@ -327,8 +339,7 @@ void ScenePass::uploadInstances() {
   const std::vector<SnapshotInstance>& instances = snapshot_->instances;
   if (instanceSlots_.size() != instances.size())
     instanceSlots_ = UniformSlots<gpu::InstanceConstants>(device_.context, instances.size());
-  for (std::size_t i = 0; i < instances.size(); ++i)
-    instanceSlots_.set(i, constantsOf(instances[i], i, reflections_[i].probe));
+  for (std::size_t i = 0; i < instances.size(); ++i) instanceSlots_.set(i, constantsOf(instances[i]));
   instanceSlots_.upload();
 }
 

@@ -8,19 +8,23 @@
 #include "raster/back_faces.h"
 #include "raster/device.h"
 #include "raster/reflection.h"
+#include "raster/render_target.h"
 #include "raster/shadow_maps.h"
 #include "raster/transparency.h"
 #include "raster/uniform_slots.h"
 
 namespace pb {
 
-struct RenderTarget {
-  GLuint framebuffer;
-  int widthPx;
-  int heightPx;
-};
-
 inline constexpr int kNoProbe = -1;
+
+class ProbeMaps;
+
+// What a pass sees of the probes.
+struct ShownProbes {
+  const ProbeMaps* maps;           // may be null if none is shown
+  const std::vector<bool>& shown;  // by probe: its map, not the environment
+  int hidden = kNoProbe;           // the probe that is captured: its owners are left out
+};
 
 class ScenePass {
  public:
@@ -32,11 +36,8 @@ class ScenePass {
   // The frame's shadow maps, before what shows them.
   void drawShadows(FrameCounters& counters);
 
-  // The frame's pass number `pass`, without the owners of probe `hiddenProbe` (or kNoProbe). Probes that are marked in
-  // mapShown show their cube maps (bound by the caller to gpu::kProbeUnit), the others and the hidden one the
-  // environment.
-  void draw(std::size_t pass, const RenderTarget& target, int hiddenProbe, const std::vector<bool>& mapShown,
-            FrameCounters& counters);
+  // The frame's pass number `pass`. Probes that are not shown, and the hidden one, show the environment.
+  void draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters);
 
   // The same objects into an RGBA32UI target: SampleId, 0.
   void drawIds(std::size_t pass, const RenderTarget& target);
@@ -64,6 +65,7 @@ class ScenePass {
 
   void buildDraws(const Snapshot& snapshot);
   bool drawsFit(const Snapshot& snapshot) const;
+  void showShapes();
   void beginShadows();
   std::vector<const Draw*> shadowCasters(const gpu::ShadowFace& face) const;
   SurfaceVariant variantOf(const Snapshot& snapshot, const SnapshotInstance& instance) const;
@@ -73,8 +75,7 @@ class ScenePass {
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const Draw& draw, std::size_t pass) const;
   std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe) const;
-  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, int hiddenProbe,
-                    const std::vector<bool>& mapShown);
+  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes);
   std::vector<const Draw*> readBehind(const Draw& draw, std::size_t pass) const;
   void drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder);
   Faces facesOf(const Draw& draw, const shading::View& view) const;
@@ -86,6 +87,7 @@ class ScenePass {
   std::shared_ptr<SceneResources> resources_;
   std::vector<Reflection> reflections_;  // by instance
   GLuint background_ = 0;
+  std::size_t drawnEnvironment_ = 0;  // for which the draws were built
   gl::VertexArray noVertices_;
   const Snapshot* snapshot_ = nullptr;  // between beginFrame() and the last pass of the frame
   std::vector<gpu::PassConstants> passes_;

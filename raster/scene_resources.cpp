@@ -112,37 +112,64 @@ GLenum minFilter(float filter) {
 GpuMesh::GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_)
     : source(std::move(source_)),
       vertexArray(gl::makeVertexArray(gl)),
-      vertices(gl, gl::bytesOf(interleave(*source))),
-      indices(gl, gl::bytesOf(source->indices)),
+      vertices(gl, source->positions.size() * sizeof(Vertex)),
+      indices(gl, source->indices.size() * sizeof(std::uint32_t)),
       smoothingGroups(gl, gl::bytesOf(source->smoothingGroups)),
       indexCount(static_cast<GLsizei>(source->indices.size())) {
+  vertices.write(0, gl::bytesOf(interleave(*source)));
+  indices.write(0, gl::bytesOf(source->indices));
   describeVertices(gl, *this);
 }
 
+void GpuMesh::addInwardDistances(const gl::Functions& gl) {
+  constexpr GLuint kLocation = 6;  // after kAttributes
+  constexpr GLuint kBinding = 1;
+  if (inwardDistances.id() != 0) return;
+  inwardDistances = gl::Buffer(gl, source->positions.size() * sizeof(float));
+  inwardDistances.write(0, gl::bytesOf(pb::inwardDistances(*source)));
+  const GLuint array = vertexArray.id();
+  gl.VertexArrayVertexBuffer(array, kBinding, inwardDistances.id(), 0, sizeof(float));
+  gl.EnableVertexArrayAttrib(array, kLocation);
+  gl.VertexArrayAttribFormat(array, kLocation, 1, GL_FLOAT, GL_FALSE, 0);
+  gl.VertexArrayAttribBinding(array, kLocation, kBinding);
+}
+
+void GpuMesh::show(const std::shared_ptr<const Mesh>& shape) {
+  if (shape->indices != source->indices) indices.write(0, gl::bytesOf(shape->indices));
+  source = shape;
+  vertices.write(0, gl::bytesOf(interleave(*source)));
+  if (inwardDistances.id() != 0) inwardDistances.write(0, gl::bytesOf(pb::inwardDistances(*source)));
+}
+
 SceneResources::SceneResources(gl::Context& context, std::shared_ptr<const Scene> scene)
-    : context_(context), gl_(context.functions()), scene_(std::move(scene)), constants_(context, 1) {
+    : context_(context),
+      gl_(context.functions()),
+      scene_(std::move(scene)),
+      constants_(context, 1 + scene_->environmentChanges.size()),
+      environments_(1 + scene_->environmentChanges.size()) {
   uploadTextures();
   makeScreens();
   uploadMaterials(context);
-  uploadEnvironment();
+  for (std::size_t i = 0; i < environments_.size(); ++i)
+    constants_.set(i, {scene_->environmentAt(i).sky, scene_->environmentAt(i).ambient});
+  constants_.upload();
+  showEnvironment(0);
   context.check("uploading a scene's textures");
 }
 
-const GpuMesh& SceneResources::mesh(const std::shared_ptr<const Mesh>& mesh) {
-  return meshes_.try_emplace(mesh.get(), gl_, mesh).first->second;
-}
-
-void SceneResources::addInwardDistances(const std::shared_ptr<const Mesh>& mesh) {
-  constexpr GLuint kLocation = 6;  // after kAttributes
-  constexpr GLuint kBinding = 1;
-  GpuMesh& gpuMesh = meshes_.try_emplace(mesh.get(), gl_, mesh).first->second;
-  if (gpuMesh.inwardDistances.id() != 0) return;
-  gpuMesh.inwardDistances = gl::Buffer(gl_, gl::bytesOf(inwardDistances(*mesh)));
-  const GLuint array = gpuMesh.vertexArray.id();
-  gl_.VertexArrayVertexBuffer(array, kBinding, gpuMesh.inwardDistances.id(), 0, sizeof(float));
-  gl_.EnableVertexArrayAttrib(array, kLocation);
-  gl_.VertexArrayAttribFormat(array, kLocation, 1, GL_FLOAT, GL_FALSE, 0);
-  gl_.VertexArrayAttribBinding(array, kLocation, kBinding);
+const GpuMesh& SceneResources::mesh(std::size_t instance, const std::shared_ptr<const Mesh>& mesh,
+                                    bool wantsInwardDistances) {
+  GpuMesh& gpuMesh = mesh->isDeformed ? deformed_.try_emplace(instance, gl_, mesh).first->second
+                                      : meshes_.try_emplace(mesh.get(), gl_, mesh).first->second;
+  // Compared by content: sequences that share a device show the scene at different times.
+  const bool hasTopology = gpuMesh.source->positions.size() == mesh->positions.size() &&
+                           gpuMesh.source->indices.size() == mesh->indices.size();
+  if (!hasTopology)
+    gpuMesh = GpuMesh(gl_, mesh);
+  else if (gpuMesh.source->contentHash != mesh->contentHash)
+    gpuMesh.show(mesh);
+  if (wantsInwardDistances) gpuMesh.addInwardDistances(gl_);
+  return gpuMesh;
 }
 
 SurfaceVariant SceneResources::variantOf(int material, const Mesh& mesh, TextureFilter filter) const {
@@ -165,9 +192,10 @@ SurfaceVariant SceneResources::variantOf(int material, const Mesh& mesh, Texture
 }
 
 void SceneResources::bindScene() const {
-  constants_.bind(gpu::kSceneBlock, 0);
-  gl_.BindTextureUnit(gpu::kEnvironmentUnit, environmentFaces_.id());
-  gl_.BindTextureUnit(gpu::kEnvironmentCubeUnit, environmentCube_.id());
+  const GpuEnvironment& environment = environments_[shownEnvironment_];
+  constants_.bind(gpu::kSceneBlock, shownEnvironment_);
+  gl_.BindTextureUnit(gpu::kEnvironmentUnit, environment.faces.id());
+  gl_.BindTextureUnit(gpu::kEnvironmentCubeUnit, environment.cube.id());
 }
 
 void SceneResources::bindMaterial(int material) const {
@@ -222,32 +250,37 @@ void SceneResources::uploadMaterials(gl::Context& context) {
   materials_.upload();
 }
 
-void SceneResources::uploadEnvironment() {
-  const Environment& environment = scene_->environment;
-  constants_.set(0, {environment.sky, environment.ambient});
-  constants_.upload();
-  const int size = environment.faces.front().width();
-  environmentFaces_ = gl::makeTexture(
+void SceneResources::showEnvironment(std::size_t index) {
+  shownEnvironment_ = index;
+  if (environments_[index].faces.id() == 0) uploadEnvironment(index);
+}
+
+void SceneResources::uploadEnvironment(std::size_t index) {
+  const std::vector<ImageRgba>& faces = scene_->environmentAt(index).faces;
+  GpuEnvironment& environment = environments_[index];
+  const int size = faces.front().width();
+  environment.faces = gl::makeTexture(
       gl_, {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = size, .height = size, .layers = 6});
   for (GLint face = 0; face < 6; ++face)
-    gl_.TextureSubImage3D(environmentFaces_.id(), 0, 0, 0, face, size, size, 1, GL_RGBA, GL_FLOAT,
-                          environment.faces[static_cast<std::size_t>(face)].data());
-  environmentCube_ = gl::makeCubeView(environmentFaces_, GL_RGBA32F);
+    gl_.TextureSubImage3D(environment.faces.id(), 0, 0, 0, face, size, size, 1, GL_RGBA, GL_FLOAT,
+                          faces[static_cast<std::size_t>(face)].data());
+  environment.cube = gl::makeCubeView(environment.faces, GL_RGBA32F);
 }
 
 int SceneResources::filterEnvironment(ProbeFilter filter, Programs& programs) {
   if (filter == ProbeFilter::none || std::ranges::none_of(scene_->materials, hasRoughLobe)) return 0;
-  FilteredEnvironment& filtered = filtered_[filter];
+  FilteredEnvironment& filtered = environments_[shownEnvironment_].filtered[filter];
   if (filtered.resolution == 0) {
     bindScene();
-    filtered = pb::filterEnvironment(context_, programs, scene_->environment, filter);
+    filtered = pb::filterEnvironment(context_, programs, scene_->environmentAt(shownEnvironment_), filter);
   }
   return filtered.resolution;
 }
 
 void SceneResources::bindReflection(const Technique& technique) {
   gl_.BindTextureUnit(gpu::kDfgUnit, dfgTableOf(technique.geometryTerm).id());
-  if (const auto found = filtered_.find(technique.filter); found != filtered_.end())
+  const std::map<ProbeFilter, FilteredEnvironment>& filtered = environments_[shownEnvironment_].filtered;
+  if (const auto found = filtered.find(technique.filter); found != filtered.end())
     gl_.BindTextureUnit(gpu::kEnvironmentLevelsUnit, found->second.cube.id());
 }
 

@@ -1,4 +1,5 @@
-// A scene's meshes, materials, textures and environment on the device: uploaded once, then only read.
+// A scene's meshes, materials, textures and environments on the device: uploaded once, then only read, except what
+// changes with time: the shapes of deforming meshes and the pictures on screens.
 #pragma once
 
 #include <array>
@@ -24,8 +25,13 @@ struct GpuMesh {
   gl::Buffer vertices;
   gl::Buffer indices;
   gl::Buffer smoothingGroups;  // one uint a triangle
-  gl::Buffer inwardDistances;  // one float a vertex, only after SceneResources::addInwardDistances()
+  gl::Buffer inwardDistances;  // one float a vertex, only after addInwardDistances()
   GLsizei indexCount;
+
+  // The vertex attribute of two-interface refraction (raster/inward_distance.h).
+  void addInwardDistances(const gl::Functions& gl);
+  // Takes another shape of the same topology.
+  void show(const std::shared_ptr<const Mesh>& shape);
 };
 
 class SceneResources {
@@ -34,15 +40,17 @@ class SceneResources {
 
   const std::shared_ptr<const Scene>& scene() const { return scene_; }
 
-  // Uploaded when first asked for.
-  const GpuMesh& mesh(const std::shared_ptr<const Mesh>& mesh);
-  // The vertex attribute of two-interface refraction (raster/inward_distance.h), computed when first asked for.
-  void addInwardDistances(const std::shared_ptr<const Mesh>& mesh);
+  // The mesh of an instance, by its number in the snapshot. Uploaded when first asked for; what deforms is uploaded
+  // anew for another shape, into the same object. With its inward distances if they are wanted.
+  const GpuMesh& mesh(std::size_t instance, const std::shared_ptr<const Mesh>& mesh, bool wantsInwardDistances);
 
   SurfaceVariant variantOf(int material, const Mesh& mesh, TextureFilter filter) const;
 
   // Uploads the pictures of the scene's screens (Snapshot::screens) that are not shown already.
   void showScreens(const std::vector<Texture>& screens);
+
+  // The environment that everything below is about, by its number for Scene::environmentAt().
+  void showEnvironment(std::size_t index);
 
   // Makes the filtered environment unless nothing looks it up. Returns the texels along its edge.
   int filterEnvironment(ProbeFilter filter, Programs& programs);
@@ -61,27 +69,33 @@ class SceneResources {
     GLuint sampler;
   };
 
+  struct GpuEnvironment {
+    gl::Texture faces;
+    gl::Texture cube;
+    std::map<ProbeFilter, FilteredEnvironment> filtered;  // made when first asked for
+  };
+
   void uploadTextures();
   void makeScreens();
   void uploadMaterials(gl::Context& context);
-  void uploadEnvironment();
+  void uploadEnvironment(std::size_t index);
   const gl::Texture& dfgTableOf(GeometryTerm term);
   GLuint samplerFor(const glm::vec4& settings);
 
   gl::Context& context_;
   const gl::Functions& gl_;
   std::shared_ptr<const Scene> scene_;
-  std::map<const Mesh*, GpuMesh> meshes_;
-  std::vector<gl::Texture> textures_;      // the scene's textures, then its screens
-  std::vector<ImageRgba> shownOnScreens_;  // by screen: level 0 of what is uploaded
+  std::map<const Mesh*, GpuMesh> meshes_;    // of instances that don't deform
+  std::map<std::size_t, GpuMesh> deformed_;  // by instance
+  std::vector<gl::Texture> textures_;        // the scene's textures, then its screens
+  std::vector<ImageRgba> shownOnScreens_;    // by screen: level 0 of what is uploaded
   std::map<std::array<float, 4>, gl::Sampler> samplers_;
   std::vector<std::vector<Binding>> materialBindings_;  // by material
   UniformSlots<shading::MaterialConstants> materials_;
   UniformSlots<gpu::SceneConstants> constants_;
-  gl::Texture environmentFaces_;
-  gl::Texture environmentCube_;
-  std::array<gl::Texture, 4> dfgTables_;                 // by GeometryTerm, made when first bound
-  std::map<ProbeFilter, FilteredEnvironment> filtered_;  // made when first asked for
+  std::vector<GpuEnvironment> environments_;  // made when first shown
+  std::size_t shownEnvironment_ = 0;
+  std::array<gl::Texture, 4> dfgTables_;  // by GeometryTerm, made when first bound
 };
 
 }  // namespace pb

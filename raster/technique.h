@@ -14,7 +14,14 @@ enum class Refraction { oneInterface, twoInterface, cubemapBackface, thickSlab }
 enum class Dispersion { off, rgbOffset, perChannelIor };
 enum class ProbeFilter { none, boxMips, ggxPrefiltered };
 enum class GeometryTerm { smithCorrelated, one, smithK, cookTorrance };  // numbered as shading::kGeometry*
-enum class Coats { nearestProbe, environment, none };
+enum class Coats { nearestProbe, blendedProbes, environment, none };
+enum class CapturedFaces { all, noTopBottom, topHalf };
+enum class Iterations { bruteForce, incremental };
+enum class ResolutionScale { fixed, distance };
+enum class ProbeFormat { rgba16f, r11fG11fB10f, rgb9e5, rgba8Srgb };
+enum class Storage { cube, dualParaboloid, octahedral };
+enum class Placement { stated, origin, boxCentre, centroid };
+enum class SelfReflection { none, splitParts };
 enum class ProbeUse {
   dynamic,
   environmentOnly
@@ -34,6 +41,22 @@ struct Technique {
   GeometryTerm geometryTerm = GeometryTerm::smithCorrelated;
   Coats coats = Coats::nearestProbe;  // what dielectric coats of surfaces without a probe of their own reflect
   int shadowResolution = 1024;        // texels along the edge of a shadow map's face, for scenes that cast shadows
+  Spec lookup{"infinite", {}};        // from a point and a direction to a texel: see raster/lookup.h
+  CapturedFaces faces = CapturedFaces::all;  // what is not captured shows the environment
+  Iterations iterations = Iterations::bruteForce;
+  ResolutionScale resolutionScale = ResolutionScale::fixed;
+  ProbeFormat format = ProbeFormat::rgba16f;
+  Storage storage = Storage::cube;
+  bool mips = false;        // of level 0 for smooth lobes, by the width of the pixel's cone
+  bool seamless = true;     // filtering across the edges of faces
+  float hysteresis = 0.0f;  // share of a map's earlier content that a capture keeps, [0, 1)
+  bool captureTextures = true;
+  float captureLod = 1.0f;  // share of the triangles that captures draw, (0, 1]
+  float captureFar = 0.0f;  // metres from a probe beyond which captures show the environment; 0: no such limit
+  bool captureLights = true;
+  Placement placement = Placement::stated;  // where probes stand
+  Spec sharing{"none", {}};                 // none, distance?metres= or count?probes=
+  SelfReflection selfReflection = SelfReflection::none;
   ProbeUse probes = ProbeUse::dynamic;
 
   friend bool operator==(const Technique&, const Technique&) = default;

@@ -15,7 +15,7 @@ struct SceneConstants {
 struct InstanceConstants {
   mat4 worldFromObject;
   mat4 normalMatrix;  // the upper 3x3
-  vec4 values;        // x multiplies the mesh's UV per metre, y cube of its probe, z id (exact up to 2^24), w -1 if the
+  vec4 values;        // x multiplies the mesh's UV per metre, z id (exact up to 2^24), w -1 if the
                       // transform mirrors, else 1
   vec4 volume;        // x metres in a unit of object space (mean of the directions)
 };

@@ -10,8 +10,8 @@
 #endif
 
 #ifdef PROBE_LOOKUP
-layout(binding = kProbeUnit) uniform samplerCubeArray probes;
-vec3 radianceAlong(vec3 d) { return vec3(textureLod(probes, vec4(d, instance.values.y), 0.0f)); }
+layout(binding = kProbeUnit) uniform samplerCube probe;
+vec3 radianceAlong(vec3 d) { return vec3(textureLod(probe, d, 0.0f)); }
 #else
 #include "raster/shaders/environment_lookup.glsl"
 vec3 radianceAlong(vec3 d) { return environmentAlong(d); }
@@ -19,7 +19,7 @@ vec3 radianceAlong(vec3 d) { return environmentAlong(d); }
 
 #ifdef FILTERED_LOOKUP
 #ifdef PROBE_LOOKUP
-vec3 radianceOfLevel(vec3 d, float lod) { return vec3(textureLod(probes, vec4(d, instance.values.y), lod)); }
+vec3 radianceOfLevel(vec3 d, float lod) { return vec3(textureLod(probe, d, lod)); }
 #else
 layout(binding = kEnvironmentLevelsUnit) uniform samplerCube environmentLevels;
 vec3 radianceOfLevel(vec3 d, float lod) { return vec3(textureLod(environmentLevels, d, lod)); }

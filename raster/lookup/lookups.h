@@ -1,0 +1,13 @@
+// One function a lookup: each in its own file beside this one.
+#pragma once
+
+#include "raster/lookup.h"
+
+namespace pb {
+
+// Reads the parameters of a lookup's spec; messages name it.
+SpecReader lookupReader(const Spec& spec);
+
+Lookup infiniteLookup();
+
+}  // namespace pb
