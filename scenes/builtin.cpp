@@ -12,10 +12,15 @@ Scene makeControlShadowsScene(SpecReader& parameters);
 Scene makeCrtHeapScene(SpecReader& parameters);
 Scene makeDispersionScene(SpecReader& parameters);
 Scene makeGlassScene(SpecReader& parameters);
+Scene makeGlassShapesScene(SpecReader& parameters);
+Scene makeHallOfMirrorsScene(SpecReader& parameters);
 Scene makeMetalsScene(SpecReader& parameters);
+Scene makeMirrorCubeScene(SpecReader& parameters);
 Scene makeMirrorRoomScene(SpecReader& parameters);
 Scene makeMirrorsRingScene(SpecReader& parameters);
 Scene makeMirrorsScene(SpecReader& parameters);
+Scene makePlanarFloorScene(SpecReader& parameters);
+Scene makeStreetScene(SpecReader& parameters);
 Scene makeTeapotScene(SpecReader& parameters);
 
 const std::vector<BuiltinScene>& builtinScenes() {
@@ -32,8 +37,13 @@ const std::vector<BuiltinScene>& builtinScenes() {
       {"dispersion", "", "Prisms, an absorbing column and a faceted gem before bright slits.", makeDispersionScene},
       {"glass", "", "Glass, rough metal and mirror balls under a lamp: scene B of the CPU ray tracers' benchmark.",
        makeGlassScene},
+      {"glass-shapes", "", "A cube, a ball and a bust of dispersing glass before a striped wall.",
+       makeGlassShapesScene},
+      {"hall-of-mirrors", "", "A corridor between two facing mirrors: many bounces.", makeHallOfMirrorsScene},
       {"metals", "grid = spheres a row, 2 to 8, default 5",
        "Silver, gold and copper spheres from perfectly smooth to very rough.", makeMetalsScene},
+      {"mirror-cube", "", "A mirror cube in a room, with near objects that a cube map shows far away and large.",
+       makeMirrorCubeScene},
       {"mirror-room", "count = mirror balls, 1 to 16, default 5",
        "Small mirror balls in a closed room: little parallax, many bounces.", makeMirrorRoomScene},
       {"mirrors", "count = mirror balls on the ring, 1 to 64, default 5",
@@ -41,6 +51,9 @@ const std::vector<BuiltinScene>& builtinScenes() {
       {"mirrors-ring", "point = 1 to add a point light, default 0",
        "Eight mirror balls on a ring under a constant sky: scene A of the CPU ray tracers' benchmark.",
        makeMirrorsRingScene},
+      {"planar-floor", "", "A flat mirror as the floor of a room, with objects on it and beyond it.",
+       makePlanarFloorScene},
+      {"street", "", "A car of mirror-like paint and glass drives past facades.", makeStreetScene},
       {"teapot", "", "A mirror teapot with a matte one on an orbit around it.", makeTeapotScene},
   };
   return table;
