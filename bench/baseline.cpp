@@ -22,8 +22,8 @@ GatedMetrics gatedMetrics(const Metrics& metrics, const Tolerances& tolerance) {
   return gated;
 }
 
-BaselineCell makeCell(const CellResult& cell, const Tolerances& tolerance) {
-  BaselineCell made{cell.key(), gatedMetrics(cell.metrics, tolerance), std::nullopt, cell.counters};
+BaselineCell makeCell(const CellResult& cell, const Tolerances& tolerance, const AxisValues& defaults) {
+  BaselineCell made{shortKey(cell.key(), defaults), gatedMetrics(cell.metrics, tolerance), std::nullopt, cell.counters};
   if (cell.maskMetrics) made.maskMetrics = gatedMetrics(*cell.maskMetrics, tolerance);
   return made;
 }
@@ -130,11 +130,14 @@ bool sameDriver(const Provenance& a, const Provenance& b) {
   return a.glRenderer == b.glRenderer && a.glVersion == b.glVersion;
 }
 
-Baseline makeBaseline(const Results& run, const std::string& reason, const std::string& blessedAt) {
-  Baseline baseline{reason, blessedAt, run.provenance, run.tolerance, {}, {}};
+Baseline makeBaseline(const Results& run, const std::string& reason, const std::string& blessedAt,
+                      const AxisValues& defaults) {
+  Baseline baseline{reason, blessedAt, run.provenance, run.tolerance, defaults, {}, {}};
   for (const CellResult& cell : run.cells) {
-    baseline.cells.push_back(makeCell(cell, run.tolerance));
-    if (cell.cost) baseline.costs[cell.sequenceKey()] = {cell.cost->ratio, cell.cost->ratioLow, cell.cost->ratioHigh};
+    baseline.cells.push_back(makeCell(cell, run.tolerance, defaults));
+    if (cell.cost)
+      baseline.costs[shortKey(cell.sequenceKey(), defaults)] = {cell.cost->ratio, cell.cost->ratioLow,
+                                                                cell.cost->ratioHigh};
   }
   return baseline;
 }
@@ -146,6 +149,7 @@ std::string toJson(const Baseline& baseline) {
   head["blessed_at"] = baseline.blessedAt;
   head["provenance"] = provenanceToJson(baseline.provenance);
   head["tolerance"] = tolerancesToJson(baseline.tolerance);
+  head["defaults"] = axisValuesToJson(baseline.defaults);
   head["costs"] = Json::object();
   for (const auto& [sequence, cost] : baseline.costs) head["costs"][sequence] = baselineCostToJson(cost);
   std::vector<Json> rows;
@@ -160,6 +164,8 @@ Baseline baselineFromJson(const std::string& text, const std::string& place) {
   baseline.blessedAt = document.at("blessed_at").get<std::string>();
   baseline.provenance = provenanceFromJson(document.at("provenance"));
   baseline.tolerance = tolerancesFromJson(document.at("tolerance"));
+  if (const auto defaults = document.find("defaults"); defaults != document.end())
+    baseline.defaults = axisValuesFromJson(*defaults);
   for (const auto& [sequence, cost] : document.at("costs").items())
     baseline.costs[sequence] = baselineCostFromJson(cost);
   for (const Json& cell : document.at("cells")) baseline.cells.push_back(baselineCellFromJson(cell));
@@ -169,11 +175,12 @@ Baseline baselineFromJson(const std::string& text, const std::string& place) {
 
 Baseline readBaseline(const std::string& path) { return baselineFromJson(readFile(path), path); }
 
-void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force) {
+void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force,
+           const AxisValues& defaults) {
   requireBlessable(run, reason);
   if (!force) requireQuietReferences(run);
   if (!force && std::filesystem::exists(baselinePath)) requireSameDriver(run.provenance, baselinePath);
-  writeFileAtomically(baselinePath, toJson(makeBaseline(run, reason, utcNow())));
+  writeFileAtomically(baselinePath, toJson(makeBaseline(run, reason, utcNow(), defaults)));
 }
 
 }  // namespace pb

@@ -19,7 +19,7 @@ inline constexpr int kBaselineSchemaVersion = 1;
 using GatedMetrics = std::vector<std::pair<std::string, std::optional<double>>>;
 
 struct BaselineCell {
-  std::string key;  // CellResult::key()
+  std::string key;  // of the cell, shortKey() of CellResult::key()
   GatedMetrics metrics;
   std::optional<GatedMetrics> maskMetrics;
   std::vector<std::pair<std::string, std::int64_t>> counters;
@@ -33,11 +33,14 @@ struct Baseline {
   std::string reason, blessedAt;  // UTC, ISO 8601
   Provenance provenance;
   Tolerances tolerance;
+  AxisValues defaults;  // what axes stand at that the keys don't name; empty in files from before it was stored
   std::vector<BaselineCell> cells;
-  std::map<std::string, BaselineCost> costs;  // by CellResult::sequenceKey()
+  std::map<std::string, BaselineCost> costs;  // by shortKey() of CellResult::sequenceKey()
 };
 
-Baseline makeBaseline(const Results& run, const std::string& reason, const std::string& blessedAt);
+// `defaults`: of every axis.
+Baseline makeBaseline(const Results& run, const std::string& reason, const std::string& blessedAt,
+                      const AxisValues& defaults = {});
 
 // One cell a line, so that version control shows what a blessing changed. Inverse to each other.
 std::string toJson(const Baseline& baseline);
@@ -50,6 +53,7 @@ bool sameDriver(const Provenance& a, const Provenance& b);
 // Writes the baseline of a run. Throws an input Error for an empty reason, a run without cells or tolerances, and one
 // whose control did not pass; unless `force`, also an inconclusive Error for references that missed max_noise and an
 // input Error for another GL renderer or driver than that of the baseline that is there.
-void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force);
+void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force,
+           const AxisValues& defaults = {});
 
 }  // namespace pb

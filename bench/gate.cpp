@@ -38,8 +38,11 @@ double limitFor(const Tolerance& tolerance, const std::optional<double>& before)
 
 class Comparison {
  public:
-  Comparison(const Results& run, const Baseline& baseline) : run_(run), baseline_(baseline) {
-    for (const CellResult& cell : run.cells) runCells_[cell.key()] = &cell;
+  Comparison(const Results& run, const Baseline& baseline, const AxisValues& defaults)
+      : run_(run), baseline_(baseline), defaults_(defaultsOf(baseline, defaults)) {
+    for (const CellResult& cell : run.cells)
+      if (!runCells_.emplace(keyOf(cell), &cell).second)
+        throwInputError("a cell may stand once in a run, twice: {}", keyOf(cell));
   }
 
   GateReport make() {
@@ -54,6 +57,16 @@ class Comparison {
   }
 
  private:
+  // Where a default has changed since, that of the baseline says what its keys mean.
+  static AxisValues defaultsOf(const Baseline& baseline, const AxisValues& now) {
+    std::map<std::string, std::string> values(baseline.defaults.begin(), baseline.defaults.end());
+    values.insert(now.begin(), now.end());
+    return {values.begin(), values.end()};
+  }
+
+  std::string keyOf(const CellResult& cell) const { return shortKey(cell.key(), defaults_); }
+  std::string sequenceKeyOf(const CellResult& cell) const { return shortKey(cell.sequenceKey(), defaults_); }
+
   void compareControl() {
     const std::string& outcome = run_.provenance.controlOutcome;
     if (outcome != kControlPassed) report_.findings.push_back(makeFinding(FindingKind::control, "", outcome));
@@ -61,23 +74,24 @@ class Comparison {
 
   void compareCells() {
     for (const BaselineCell& before : baseline_.cells) {
-      report_.cells.push_back(before.key);
-      const auto found = runCells_.find(before.key);
+      const std::string key = shortKey(before.key, defaults_);  // older baselines name every axis that there was
+      report_.cells.push_back(key);
+      const auto found = runCells_.find(key);
       if (found == runCells_.end())
-        report_.findings.push_back(makeFinding(FindingKind::missing, before.key, "cell"));
+        report_.findings.push_back(makeFinding(FindingKind::missing, key, "cell"));
       else
-        compareCell(before, *found->second);
+        compareCell(key, before, *found->second);
     }
   }
 
-  void compareCell(const BaselineCell& before, const CellResult& after) {
-    compareMetrics(before.key, "", before.metrics, after.metrics);
+  void compareCell(const std::string& key, const BaselineCell& before, const CellResult& after) {
+    compareMetrics(key, "", before.metrics, after.metrics);
     if (before.maskMetrics && after.maskMetrics)
-      compareMetrics(before.key, "mask ", *before.maskMetrics, *after.maskMetrics);
+      compareMetrics(key, "mask ", *before.maskMetrics, *after.maskMetrics);
     else if (before.maskMetrics || after.maskMetrics)
       report_.findings.push_back(
-          makeFinding(before.maskMetrics ? FindingKind::missing : FindingKind::surplus, before.key, "mask"));
-    if (sameDriver(run_.provenance, baseline_.provenance)) compareCounters(before, after);
+          makeFinding(before.maskMetrics ? FindingKind::missing : FindingKind::surplus, key, "mask"));
+    if (sameDriver(run_.provenance, baseline_.provenance)) compareCounters(key, before, after);
   }
 
   // Both lists stand in the order of the tolerances.
@@ -98,45 +112,39 @@ class Comparison {
     report_.findings.push_back({FindingKind::changed, cell, quantity, before, after, limit, excess});
   }
 
-  void compareCounters(const BaselineCell& before, const CellResult& after) {
-    const std::map<std::string, std::int64_t> old(before.counters.begin(), before.counters.end());
-    const std::map<std::string, std::int64_t> now(after.counters.begin(), after.counters.end());
-    std::set<std::string> names;
-    for (const auto& [name, value] : old) names.insert(name);
-    for (const auto& [name, value] : now) names.insert(name);
-    for (const std::string& name : names) {
+  // Those of the baseline: programs learn to count more.
+  void compareCounters(const std::string& key, const BaselineCell& before, const CellResult& after) {
+    std::map<std::string, std::int64_t> now(after.counters.begin(), after.counters.end());
+    for (const auto& [name, value] : before.counters) {
       ++report_.countersCompared;
-      compareCounter(before.key, name, old, now);
+      const auto found = now.find(name);
+      compareCounter(key, name, value, found == now.end() ? std::nullopt : std::optional(found->second));
+      now.erase(name);
     }
+    for (const auto& [name, value] : now) newCounters_.insert(name);
   }
 
-  void compareCounter(const std::string& cell, const std::string& name, const std::map<std::string, std::int64_t>& old,
-                      const std::map<std::string, std::int64_t>& now) {
-    const auto valueIn = [&](const auto& counters) {
-      const auto found = counters.find(name);
-      return found == counters.end() ? std::nullopt : std::optional(found->second);
-    };
-    const std::optional<std::int64_t> before = valueIn(old), after = valueIn(now);
+  void compareCounter(const std::string& cell, const std::string& name, std::int64_t before,
+                      std::optional<std::int64_t> after) {
     if (before == after) return;
-    const auto asDouble = [](std::optional<std::int64_t> value) {
-      return value ? std::optional(static_cast<double>(*value)) : std::nullopt;
-    };
-    report_.findings.push_back({FindingKind::counter, cell, name, asDouble(before), asDouble(after), 0, kInfinity});
+    const std::optional<double> changed = after ? std::optional(static_cast<double>(*after)) : std::nullopt;
+    report_.findings.push_back({FindingKind::counter, cell, name, static_cast<double>(before), changed, 0, kInfinity});
   }
 
   void findSurplus() {
     std::set<std::string> known(report_.cells.begin(), report_.cells.end());
     for (const CellResult& cell : run_.cells) {
-      if (known.contains(cell.key())) continue;
-      report_.cells.push_back(cell.key());
-      report_.findings.push_back(makeFinding(FindingKind::surplus, cell.key(), "cell"));
+      const std::string key = keyOf(cell);
+      if (known.contains(key)) continue;
+      report_.cells.push_back(key);
+      report_.findings.push_back(makeFinding(FindingKind::surplus, key, "cell"));
     }
   }
 
   std::map<std::string, const CostResult*> costsOfRun() const {
     std::map<std::string, const CostResult*> costs;
     for (const CellResult& cell : run_.cells)
-      if (cell.cost) costs.emplace(cell.sequenceKey(), &*cell.cost);
+      if (cell.cost) costs.emplace(sequenceKeyOf(cell), &*cell.cost);
     return costs;
   }
 
@@ -156,8 +164,9 @@ class Comparison {
     if (const std::string obstacle = costObstacle(!costs.empty()); !obstacle.empty())
       return report_.notes.push_back(fmt::format("Cost was not compared: {}.", obstacle));
     std::set<std::string> sequences;  // those that the run lacks altogether are found as missing cells
-    for (const CellResult& cell : run_.cells) sequences.insert(cell.sequenceKey());
-    for (const auto& [sequence, before] : baseline_.costs) {
+    for (const CellResult& cell : run_.cells) sequences.insert(sequenceKeyOf(cell));
+    for (const auto& [key, before] : baseline_.costs) {
+      const std::string sequence = shortKey(key, defaults_);
       if (const auto found = costs.find(sequence); found != costs.end())
         compareCost(sequence, before, *found->second);
       else if (sequences.contains(sequence))
@@ -191,7 +200,7 @@ class Comparison {
   void findNoise() {
     const std::optional<double> limit = maxNoise();
     for (const CellResult& cell : run_.cells)
-      if (isTooNoisy(cell, limit)) report_.noisyCells.insert(cell.key());
+      if (isTooNoisy(cell, limit)) report_.noisyCells.insert(keyOf(cell));
     std::map<std::string, std::vector<double>> noiseOfScenes;
     for (const NoisyReference& noisy : findNoisyReferences(run_.cells, limit))
       noiseOfScenes[noisy.scene].push_back(noisy.noise);
@@ -210,6 +219,9 @@ class Comparison {
           fmt::format("Drift: counters were not compared, the baseline was made with '{}' ({}), "
                       "this run with '{}' ({}).",
                       old.glRenderer, old.glVersion, now.glRenderer, now.glVersion));
+    if (!newCounters_.empty())
+      report_.notes.push_back(
+          fmt::format("Counters that the baseline lacks were not compared: {}.", fmt::join(newCounters_, ", ")));
     if (now.suiteHash != old.suiteHash) report_.notes.push_back("The suite has changed since the baseline.");
     for (const auto& [scene, hash] : now.sceneHashes)
       if (const auto found = old.sceneHashes.find(scene); found != old.sceneHashes.end() && found->second != hash)
@@ -230,13 +242,17 @@ class Comparison {
 
   const Results& run_;
   const Baseline& baseline_;
-  std::map<std::string, const CellResult*> runCells_;
+  const AxisValues defaults_;
+  std::map<std::string, const CellResult*> runCells_;  // by shortKey()
+  std::set<std::string> newCounters_;                  // that the baseline lacks
   GateReport report_;
 };
 
 }  // namespace
 
-GateReport check(const Results& run, const Baseline& baseline) { return Comparison(run, baseline).make(); }
+GateReport check(const Results& run, const Baseline& baseline, const AxisValues& defaults) {
+  return Comparison(run, baseline, defaults).make();
+}
 
 int exitCode(Verdict verdict) {
   switch (verdict) {

@@ -22,7 +22,7 @@ enum class FindingKind { changed, missing, surplus, counter, cost, control };
 // One thing that differs from the baseline by more than it may.
 struct Finding {
   FindingKind kind = FindingKind::changed;
-  std::string cell;                     // cell or sequence key; empty for `control`
+  std::string cell;                     // shortKey() of the cell or sequence; empty for `control`
   std::string quantity;                 // "flip_hdr", "mask flip_hdr", "draws", "cost ratio", ...
   std::optional<double> before, after;  // as stored and as measured; nullopt: undefined or not there
   double limit = 0;                     // largest allowed |after - before|
@@ -37,13 +37,14 @@ struct GateReport {
   Verdict verdict = Verdict::pass;
   std::vector<Finding> findings;     // the largest excess first
   std::vector<std::string> notes;    // one sentence each: what was not compared and why, what else differs
-  std::vector<std::string> cells;    // every cell of either side
+  std::vector<std::string> cells;    // every cell of either side, by shortKey()
   std::set<std::string> noisyCells;  // those of the run whose reference missed max_noise
   bool sameDriver = true;
   std::size_t metricsCompared = 0, countersCompared = 0, costsCompared = 0;
 };
 
-GateReport check(const Results& run, const Baseline& baseline);
+// `defaults`: of every axis; what cells stood at that were measured before an axis was added.
+GateReport check(const Results& run, const Baseline& baseline, const AxisValues& defaults = {});
 int exitCode(Verdict verdict);
 
 // Markdown for people; `blessCommand` is printed when something differs.

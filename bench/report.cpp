@@ -73,11 +73,11 @@ struct Quantity {
 
 Table tableOfAll(const Section& section, const std::vector<Quantity>& quantities) {
   Table table;
-  for (const Axis& axis : section.axes) table.columns.push_back({axis.name, Align::left});
+  for (const VaryingAxis& axis : section.axes) table.columns.push_back({axis.name, Align::left});
   for (const Quantity& quantity : quantities) table.columns.push_back(quantity.column);
   for (const Sequence& sequence : section.sequences) {
     std::vector<std::string>& row = table.rows.emplace_back();
-    for (const Axis& axis : section.axes) row.push_back(axisValue(sequence, axis.name));
+    for (const VaryingAxis& axis : section.axes) row.push_back(axisValue(sequence, axis.name));
     for (const Quantity& quantity : quantities) row.push_back(quantity.text(sequence));
   }
   return table;
@@ -150,7 +150,8 @@ std::string materialText(const Section& section) {
   const Sequence& best = bestOf(section);
   if (best.back()->materials.empty()) return {};
   std::string technique;
-  for (const Axis& axis : section.axes) technique += fmt::format(", {}={}", axis.name, axisValue(best, axis.name));
+  for (const VaryingAxis& axis : section.axes)
+    technique += fmt::format(", {}={}", axis.name, axisValue(best, axis.name));
   return fmt::format("### Errors by material\n\nframe {}, technique of the smallest error{}\n\n{}\n",
                      best.back()->frame, technique, toMarkdown(materialTable(best)));
 }
@@ -171,7 +172,7 @@ Table workTable(const Section& section) {
 // --- Tables of one question: rows are one axis, columns another, the rest is fixed
 
 // Where an axis stands while others are varied: at its largest number, or else at its first value.
-std::string standingValue(const Axis& axis) {
+std::string standingValue(const VaryingAxis& axis) {
   const auto number = [](const std::string& value) { return parseNumber(value); };
   if (!std::ranges::all_of(axis.values, [&](const std::string& value) { return number(value).has_value(); }))
     return axis.values.front();
@@ -190,22 +191,22 @@ std::string textAt(const Section& section, const Assignment& place, const Quanti
 }
 
 struct Question {
-  const Axis& rows;
-  const Axis* columns;  // null if only one axis varies
+  const VaryingAxis& rows;
+  const VaryingAxis* columns;  // null if only one axis varies
   Assignment fixed;
 };
 
 Question questionAbout(const Section& section, std::size_t axis) {
   Question question{section.axes[axis], nullptr, {}};
   if (section.axes.size() > 1) question.columns = &section.axes[(axis + 1) % section.axes.size()];
-  for (const Axis& other : section.axes)
+  for (const VaryingAxis& other : section.axes)
     if (&other != &question.rows && &other != question.columns) question.fixed[other.name] = standingValue(other);
   return question;
 }
 
 Table questionTable(const Section& section, const Question& question, const Quantity& quantity) {
-  const Axis single{"", {quantity.column.title}};
-  const Axis& columns = question.columns ? *question.columns : single;
+  const VaryingAxis single{"", {quantity.column.title}};
+  const VaryingAxis& columns = question.columns ? *question.columns : single;
   Table table{{{question.rows.name, Align::left}}, {}};
   for (const std::string& value : columns.values)
     table.columns.push_back({question.columns ? fmt::format("{}={}", columns.name, value) : value});

@@ -112,6 +112,18 @@ std::string CellResult::key() const {
   return fmt::format("scene={} camera={} frame={}{}", scene, camera, frame, axesText(*this));
 }
 
+std::string shortKey(const std::string& key, const AxisValues& defaults) {
+  // The camera is the last of what is not an axis and has a free name.
+  const std::size_t camera = std::min(key.rfind(" camera="), key.size());
+  std::string axes = key.substr(camera) + ' ';
+  for (const auto& [axis, value] : defaults) {
+    const std::string text = fmt::format(" {}={}", axis, value);
+    if (const std::size_t at = axes.rfind(text + ' '); at != std::string::npos) axes.erase(at, text.size());
+  }
+  axes.pop_back();
+  return key.substr(0, camera) + axes;
+}
+
 bool isTooNoisy(const CellResult& cell, const std::optional<double>& maxNoise) {
   const std::optional<double> noise = noiseOf(cell);
   return noise && maxNoise && !(*noise <= *maxNoise);

@@ -40,6 +40,9 @@ struct Provenance {
   std::string controlOutcome;      // kControlPassed or why not; of `certify`'s control, run before the suite
 };
 
+// Axes of techniques and their values, in axis order.
+using AxisValues = std::vector<std::pair<std::string, std::string>>;
+
 // Some metrics by their keys (see metricTable()).
 using MetricValues = std::vector<std::pair<std::string, double>>;
 
@@ -59,8 +62,8 @@ struct CostResult {
 struct CellResult {
   std::string scene, camera;
   int frame = 0;
-  std::vector<std::pair<std::string, std::string>> technique;  // every axis with its value, in axis order
-  Metrics metrics;                                             // against the converged truth, whole image
+  AxisValues technique;                // every axis that the program knew
+  Metrics metrics;                     // against the converged truth, whole image
   std::optional<Metrics> maskMetrics;  // over the pixels of reflective and refractive objects, if there are any
   // What the reference's own noise adds to "mse" and "relmse" (and to other metrics whose floor is known).
   MetricValues floor, maskFloor;
@@ -71,11 +74,15 @@ struct CellResult {
   std::vector<double> faceAgeFrames;  // mean age of the faces of each probe
   std::vector<MaterialError> materials;
 
-  // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in baselines and --only.
+  // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in a run and in --only.
   std::string key() const;
   // The same without the frame: cells of one sequence share their cost.
   std::string sequenceKey() const;
 };
+
+// A key of a cell or sequence without the axes that stand at their default. Cells that were measured before an axis was
+// added and after it have the same, since the default is what was done before.
+std::string shortKey(const std::string& key, const AxisValues& defaults);
 
 // A reference whose own noise is above max_noise: what is scored against it proves nothing.
 struct NoisyReference {

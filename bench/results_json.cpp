@@ -136,7 +136,7 @@ CellResult cellFromJson(const Json& json) {
   cell.scene = json.at("scene").get<std::string>();
   cell.camera = json.at("camera").get<std::string>();
   cell.frame = json.at("frame").get<int>();
-  cell.technique = pairsOf<std::string>(json.at("technique"));
+  cell.technique = axisValuesFromJson(json.at("technique"));
   cell.metrics = metricsFromJson(json.at("metrics"));
   if (const Json& mask = json.at("mask_metrics"); !mask.is_null()) cell.maskMetrics = metricsFromJson(mask);
   cell.floor = metricValuesFromJson(json.at("floor"));
@@ -197,6 +197,10 @@ Tolerances tolerancesFromJson(const Json& json) {
   return tolerances;
 }
 
+Json axisValuesToJson(const AxisValues& values) { return objectOf(values); }
+
+AxisValues axisValuesFromJson(const Json& json) { return pairsOf<std::string>(json); }
+
 Json countersToJson(const std::vector<std::pair<std::string, std::int64_t>>& counters) { return objectOf(counters); }
 
 std::vector<std::pair<std::string, std::int64_t>> countersFromJson(const Json& json) {
@@ -208,7 +212,7 @@ Json cellToJson(const CellResult& cell) {
   json["scene"] = cell.scene;
   json["camera"] = cell.camera;
   json["frame"] = cell.frame;
-  json["technique"] = objectOf(cell.technique);
+  json["technique"] = axisValuesToJson(cell.technique);
   json["metrics"] = metricsToJson(cell.metrics);
   json["mask_metrics"] = cell.maskMetrics ? metricsToJson(*cell.maskMetrics) : nullptr;
   json["floor"] = metricValuesToJson(cell.floor);

@@ -18,6 +18,9 @@ Provenance provenanceFromJson(const Json& json);
 Json tolerancesToJson(const Tolerances& tolerances);
 Tolerances tolerancesFromJson(const Json& json);
 
+Json axisValuesToJson(const AxisValues& values);
+AxisValues axisValuesFromJson(const Json& json);
+
 Json countersToJson(const std::vector<std::pair<std::string, std::int64_t>>& counters);
 std::vector<std::pair<std::string, std::int64_t>> countersFromJson(const Json& json);
 

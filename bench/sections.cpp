@@ -13,12 +13,12 @@ constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double kClearOfFloor = 10.0;
 constexpr char kFloorMetric[] = "relmse";
 
-std::vector<Axis> axesOf(const std::vector<Sequence>& sequences) {
-  std::vector<Axis> axes;
+std::vector<VaryingAxis> axesOf(const std::vector<Sequence>& sequences) {
+  std::vector<VaryingAxis> axes;
   for (const Sequence& sequence : sequences)
     for (const auto& [name, value] : sequence.front()->technique) {
-      auto axis = std::ranges::find(axes, name, &Axis::name);
-      if (axis == axes.end()) axis = axes.insert(axes.end(), Axis{name, {}});
+      auto axis = std::ranges::find(axes, name, &VaryingAxis::name);
+      if (axis == axes.end()) axis = axes.insert(axes.end(), VaryingAxis{name, {}});
       if (std::ranges::find(axis->values, value) == axis->values.end()) axis->values.push_back(value);
     }
   return axes;
@@ -29,7 +29,7 @@ bool hasMask(const Sequence& sequence) {
 }
 
 void describe(Section& section) {
-  for (Axis& axis : axesOf(section.sequences)) {
+  for (VaryingAxis& axis : axesOf(section.sequences)) {
     if (axis.values.size() == 1)
       section.fixed.push_back(axis.name + "=" + axis.values.front());
     else

@@ -14,7 +14,7 @@ enum class Region { whole, mask };
 // The frames of one technique on one scene; never empty.
 using Sequence = std::vector<const CellResult*>;
 
-struct Axis {
+struct VaryingAxis {
   std::string name;
   std::vector<std::string> values;  // in the order of the run
 };
@@ -22,7 +22,7 @@ struct Axis {
 // Everything about one scene seen through one camera.
 struct Section {
   std::vector<Sequence> sequences;
-  std::vector<Axis> axes;          // those with more than one value
+  std::vector<VaryingAxis> axes;   // those with more than one value
   std::vector<std::string> fixed;  // "axis=value" of the others
   Region region = Region::whole;   // where errors are of most interest: the mask, if there is one
   bool severalFrames = false;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "bench/axes.h"
 #include "bench/commands/commands.h"
 #include "bench/report.h"
 #include "scenes/files.h"
@@ -19,7 +20,7 @@ struct GateOptions {
 
 int checkRun(const GateOptions& options) {
   const Results run = readResults(options.run);
-  const GateReport report = check(run, readBaseline(options.baseline));
+  const GateReport report = check(run, readBaseline(options.baseline), describe(Technique{}));
   if (!options.junit.empty()) writeFileAtomically(options.junit, toJUnit(report, run.provenance.suiteName));
   const std::string blessCommand =
       fmt::format("probebench bless {} --baseline {} --reason TEXT", options.run, options.baseline);
@@ -28,7 +29,7 @@ int checkRun(const GateOptions& options) {
 }
 
 int blessRun(const GateOptions& options) {
-  bless(readResults(options.run), options.baseline, options.reason, options.force);
+  bless(readResults(options.run), options.baseline, options.reason, options.force, describe(Technique{}));
   fmt::print(stderr, "blessed: {}\n", options.baseline);
   return 0;
 }

@@ -231,6 +231,15 @@ TEST(CellKey, NamesEverythingThatTellsCellsApart) {
   EXPECT_EQ(cell.sequenceKey(), "scene=builtin:a camera=main resolution=64 refresh=faces?k=1 bounces=1");
 }
 
+TEST(ShortKey, LeavesOutAxesAtTheirDefault) {
+  const std::string key = "scene=my bounces=1 file.glb camera=main frame=3 resolution=64 refresh=faces?k=1 bounces=16";
+  const AxisValues defaults = {{"bounces", "1"}, {"resolution", "64"}, {"refresh", "faces"}, {"coats", "none"}};
+  EXPECT_EQ(shortKey(key, defaults), "scene=my bounces=1 file.glb camera=main frame=3 refresh=faces?k=1 bounces=16");
+  EXPECT_EQ(shortKey(key, {{"bounces", "16"}}),
+            "scene=my bounces=1 file.glb camera=main frame=3 resolution=64 refresh=faces?k=1");
+  EXPECT_EQ(shortKey(key, {}), key);
+}
+
 TEST(Csv, HasOneRowPerCellAndValue) {
   const std::string csv = toCsv(samples::makeResults());
   EXPECT_THAT(csv, testing::StartsWith("scene,camera,frame,resolution,refresh,bounces,region,metric,value\n"));
