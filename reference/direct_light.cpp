@@ -142,7 +142,7 @@ glm::vec3 shadowedLocalRadiance(const Vertex& vertex, Sampler& sampler, std::int
   }
   return lit.highlights +
          shading::localRadiance(s, lit.irradiance,
-                                shading::ambientRadiance(snapshot.scene->environment.ambient, s.normal),
+                                shading::ambientRadiance(snapshot.environment().ambient, s.normal),
                                 coatAlbedo(s, vertex.toViewer));
 }
 

@@ -103,7 +103,7 @@ class Path {
   void add(const DirectLight& light) { result_.radiance += throughput_ * (light.diffuse + light.specular); }
 
   void addEnvironment() {
-    const glm::vec3 radiance = environmentRadiance(scene_.snapshot.scene->environment, d_);
+    const glm::vec3 radiance = environmentRadiance(scene_.snapshot.environment(), d_);
     const float weight = pdf_ > 0.0f ? misWeight(pdf_, scene_.lights->pdfEnvironment(d_)) : 1.0f;
     result_.radiance += weight * throughput_ * radiance;
   }

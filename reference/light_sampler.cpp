@@ -114,7 +114,7 @@ double boundingRadius(const Snapshot& snapshot) {
 
 struct LightSampler::Impl {
   explicit Impl(const Snapshot& snapshot_)
-      : snapshot(snapshot_), environment(snapshot_.scene->environment), emitters(findEmitters(snapshot_)) {
+      : snapshot(snapshot_), environment(snapshot_.environment()), emitters(findEmitters(snapshot_)) {
     for (std::size_t e = 0; e < emitters.size(); ++e) addTriangles(e);
     emitterOfInstance.assign(snapshot.instances.size(), -1);
     for (std::size_t e = 0; e < emitters.size(); ++e)
@@ -171,7 +171,7 @@ struct LightSampler::Impl {
 
   std::optional<Sample> sampleEnvironment(std::size_t cell, const glm::vec2& u) const {
     const EnvironmentDensity::Point point = environment.pointIn(cell, u);
-    const glm::vec3 radiance = environmentRadiance(snapshot.scene->environment, point.direction);
+    const glm::vec3 radiance = environmentRadiance(snapshot.environment(), point.direction);
     const float pdf = static_cast<float>(table.probability(cell)) * point.perSteradian;
     return Sample{point.direction, std::numeric_limits<float>::infinity(), radiance, pdf, -1};
   }
