@@ -11,6 +11,7 @@ Scene makeControlAlphaScene(SpecReader& parameters);
 Scene makeControlShadowsScene(SpecReader& parameters);
 Scene makeCrtHeapScene(SpecReader& parameters);
 Scene makeDispersionScene(SpecReader& parameters);
+Scene makeFlagAndHorseScene(SpecReader& parameters);
 Scene makeGlassScene(SpecReader& parameters);
 Scene makeGlassShapesScene(SpecReader& parameters);
 Scene makeHallOfMirrorsScene(SpecReader& parameters);
@@ -35,6 +36,7 @@ const std::vector<BuiltinScene>& builtinScenes() {
       {"crt-heap", "count = monitors, 1 to 12, default 10",
        "A heap of monitors with mirrors on their sides that show moving pictures.", makeCrtHeapScene},
       {"dispersion", "", "Prisms, an absorbing column and a faceted gem before bright slits.", makeDispersionScene},
+      {"flag-and-horse", "", "A waving flag and a trotting horse that circle a mirror teapot.", makeFlagAndHorseScene},
       {"glass", "", "Glass, rough metal and mirror balls under a lamp: scene B of the CPU ray tracers' benchmark.",
        makeGlassScene},
       {"glass-shapes", "", "A cube, a ball and a bust of dispersing glass before a striped wall.",

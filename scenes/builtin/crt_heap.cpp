@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/builtin/shapes.h"
+#include "scenes/camera_path.h"
 #include "scenes/environment.h"
 #include "scenes/screen.h"
 #include "scenes/spec.h"
@@ -187,6 +188,40 @@ void addRoom(Scene& scene) {
   wall("Right wall", {4, 0, -1.6f}, {0, 0, 4.6f}, {0.16f, 0.42f, 0.30f});
 }
 
+constexpr float kVerticalFov = 36.0f;  // degrees
+
+// Where one looks at a monitor from: straight at its screen, which fills most of the image's height.
+CameraPose before(const Placement& monitor) {
+  const glm::quat turned = placed(monitor).rotation;
+  constexpr float kDistance = 1.9f;
+  const glm::vec3 eye = monitor.position + turned * glm::vec3(0.0f, 0.0f, kDistance);
+  // The camera is rolled as the monitor is.
+  return {eye, turned};
+}
+
+// A quarter of an orbit before the heap, then from screen to screen: a look of one second at each, with 1.75 s on the
+// way.
+CameraPose tourAt(double seconds) {
+  constexpr double kOrbitSeconds = 4.0, kMoveSeconds = 1.75, kStopSeconds = 1.0;
+  const Orbit orbit{.target = {0.0f, 0.9f, 0.0f},
+                    .radius = 5.2f,
+                    .height = 1.1f,
+                    .periodSeconds = 4.0 * kOrbitSeconds,
+                    .startDegrees = -45.0,
+                    .verticalFov = glm::radians(kVerticalFov)};
+  if (seconds <= kOrbitSeconds) return poseAt(orbit, seconds);
+  const std::array stops = {poseAt(orbit, kOrbitSeconds), before(kPlacements[0]), before(kPlacements[2]),
+                            poseAt(orbit, 0.0)};
+  double start = kOrbitSeconds;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i, start += kMoveSeconds + kStopSeconds)
+    if (seconds <= start + kMoveSeconds + kStopSeconds || i + 2 == stops.size())
+      return easedBetween(stops[i], stops[i + 1], static_cast<float>((seconds - start) / kMoveSeconds));
+  return stops.back();
+}
+
+// Three loops of the pictures.
+constexpr double kTourSeconds = 3.0 * static_cast<double>(kPeriodSeconds);
+
 }  // namespace
 
 Scene makeCrtHeapScene(SpecReader& parameters) {
@@ -194,7 +229,8 @@ Scene makeCrtHeapScene(SpecReader& parameters) {
   Scene scene;
   addRoom(scene);
   addMonitors(scene, count);
-  addCamera(scene, "Camera", {-0.9f, 2.0f, 5.2f}, {0.0f, 0.9f, 0.0f}, glm::radians(36.0f), 0.1f);
+  addCamera(scene, "Camera", {-0.9f, 2.0f, 5.2f}, {0.0f, 0.9f, 0.0f}, glm::radians(kVerticalFov), 0.1f);
+  addCameraPath(scene, "Tour", kTourSeconds, glm::radians(kVerticalFov), 0.05f, tourAt);
   addDirectionalLight(scene, "Moon", {-0.4f, 0.9f, 0.7f}, glm::vec3(0.5f, 0.6f, 0.8f));
   scene.environment = makeConstantEnvironment(glm::vec3(0.12f, 0.14f, 0.2f));
   return scene;
