@@ -76,16 +76,8 @@ std::vector<Check> slabChecks() {
   return {ofReference("glass slab", "sideways shift in metres", lit + 4.0 * std::tan(kAngle), shift, 5e-5)};
 }
 
-// Elevation sine of the direction that a ray leaves towards, read off a sky linear in it from -1 to 1.
-Environment makeElevationSky() {
-  shading::Sky sky{};
-  sky.horizon = glm::vec4(1.0f, 1.0f, 1.0f, 0.0f);
-  sky.zenith = glm::vec4(glm::vec3(2.0f), 0.0f);
-  sky.below = glm::vec4(1.0f, 1.0f, 1.0f, 0.0f);
-  sky.glow.w = 1.0f;
-  sky.toGlow = {0.0f, 1.0f, 0.0f, 0.0f};
-  return makeGradientEnvironment(sky);
-}
+// Tells the sine of the elevation at which a ray leaves: radiance 1 + sine.
+Environment makeElevationSky() { return makeLinearSky(1.0, 1.0); }
 
 // A ray at height h below the axis of a unit ball leaves it turned upwards by 2 (asin h - asin(h / n)): the image is
 // inverted, and rays near the axis cross it at the effective focal length n / (2 (n - 1)) from the centre.
