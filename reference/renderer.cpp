@@ -29,6 +29,9 @@ void checkSampling(const ReferenceSettings& settings) {
 void checkDepth(const ReferenceSettings& settings) {
   if (settings.depth && *settings.depth < 1)
     throwInputError("reference.depth must be at least 1 or \"converged\", got {}", *settings.depth);
+  if (settings.diffuseDepth && *settings.diffuseDepth < 0)
+    throwInputError("reference.diffuse_depth must be at least 0, or left out for no limit, got {}",
+                    *settings.diffuseDepth);
 }
 
 HiddenInstances hiddenFlags(const Snapshot& snapshot, const std::vector<int>& hidden) {

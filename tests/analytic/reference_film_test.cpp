@@ -117,6 +117,12 @@ TEST(Settings, OutOfRange_AreInputErrors) {
   EXPECT_EQ(failureOf(4, {.spp = 0}), Failure::input);
   EXPECT_EQ(failureOf(4, {.spp = 3}), Failure::input);
   EXPECT_EQ(failureOf(4, {.depth = 0}), Failure::input);
+  const auto traced = [](int diffuseDepth) {
+    return ReferenceSettings{
+        .samplesPerAxis = 1, .spp = 2, .diffuse = DiffuseTransport::traced, .diffuseDepth = diffuseDepth};
+  };
+  EXPECT_EQ(failureOf(4, traced(0)), std::nullopt);
+  EXPECT_EQ(failureOf(4, traced(-1)), Failure::input);
   EXPECT_EQ(failureOf(4, {.hiddenInstances = {2}}), Failure::input);
   EXPECT_EQ(failureOf(4, {.hiddenInstances = {-1}}), Failure::input);
 }
