@@ -180,13 +180,9 @@ std::optional<ScatteredRay> Bsdf::refract(const glm::vec3& h, float cosine, cons
   ScatteredRay ray{-toViewer_, weight, 0.0f, Lobe::specular, refraction_.channel};
   if (shading::isThinWalled(s_)) {
     if (!rough_) return ray;
-    const glm::vec3 reflected = shading::reflectedDirection(-toViewer_, h);
-    const float NoL = glm::dot(s_.normal, reflected);
-    ray.direction = shading::reflectedDirection(reflected, s_.normal);
-    ray.pdf = probability * visibleNormalPdf(glm::dot(s_.normal, h), cosine) / std::max(4.0f * cosine, 1e-12f);
-    if (NoL <= 0.0f || !(ray.pdf > 0.0f)) return std::nullopt;
-    ray.weight *= shading::G2_SmithGGXCorrelated(NoL, NoV_, s_.alpha) / shading::G1_SmithGGX(NoV_, s_.alpha);
-    return ray;
+    ray = reflect(h, cosine, weight, probability);
+    ray.direction = shading::reflectedDirection(ray.direction, s_.normal);
+    return ray.weight == glm::vec3(0.0f) ? std::nullopt : std::optional(ray);
   }
   if (matched_) return ray;
   const bool disperses = refraction_.disperses();
@@ -216,41 +212,29 @@ LobeValues Bsdf::evaluate(const glm::vec3& toLight) const {
     values.diffusePdf = diffuse_ * NoL / shading::kPi;
   }
   if (!rough_ || specular_ == 0.0f || NoL == 0.0f) return values;
-  if (NoL > 0.0f) evaluateReflection(toLight, values);
+  if (NoL > 0.0f) evaluateReflection(toLight, false, values);
   if (NoL < 0.0f && s_.kind == shading::kSurfaceGlass) {
     if (shading::isThinWalled(s_))
-      evaluateThinTransmission(toLight, values);
+      evaluateReflection(shading::reflectedDirection(toLight, s_.normal), true, values);
     else if (!refraction_.disperses())
       evaluateRefraction(toLight, values);
   }
   return values;
 }
 
-// F D G2 / (4 NoL NoV) times NoL.
-void Bsdf::evaluateReflection(const glm::vec3& toLight, LobeValues& values) const {
-  const glm::vec3 h = shading::safeNormalize(toViewer_ + toLight);
-  const float VoH = glm::dot(toViewer_, h), NoH = glm::dot(s_.normal, h), NoL = glm::dot(s_.normal, toLight);
+// F D G2 / (4 NoL NoV) times NoL. What rough thin walls let through is reflected light, mirrored through the wall, with
+// the weight of refraction in F's place.
+void Bsdf::evaluateReflection(const glm::vec3& reflected, bool throughWall, LobeValues& values) const {
+  const glm::vec3 h = shading::safeNormalize(toViewer_ + reflected);
+  const float VoH = glm::dot(toViewer_, h), NoH = glm::dot(s_.normal, h), NoL = glm::dot(s_.normal, reflected);
   if (VoH <= 0.0f || NoH <= 0.0f) return;
   const shading::SpecularWeights weights = microfacetWeights(std::min(VoH, 1.0f));
+  const float reflection = reflectionProbability(weights);
   const float D = shading::D_GGX(std::min(NoH, 1.0f), s_.alpha);
   const float G2 = shading::G2_SmithGGXCorrelated(NoL, NoV_, s_.alpha);
-  values.specular = s_.opacity * weights.reflection * (D * G2 / (4.0f * NoV_));
-  values.specularPdf =
-      specular_ * reflectionProbability(weights) * visibleNormalPdf(NoH, VoH) / std::max(4.0f * VoH, 1e-12f);
-}
-
-// As the reflection's, of the direction mirrored back through the wall.
-void Bsdf::evaluateThinTransmission(const glm::vec3& toLight, LobeValues& values) const {
-  const glm::vec3 mirrored = shading::reflectedDirection(toLight, s_.normal);
-  const glm::vec3 h = shading::safeNormalize(toViewer_ + mirrored);
-  const float VoH = glm::dot(toViewer_, h), NoH = glm::dot(s_.normal, h), NoL = glm::dot(s_.normal, mirrored);
-  if (VoH <= 0.0f || NoH <= 0.0f) return;
-  const shading::SpecularWeights weights = microfacetWeights(std::min(VoH, 1.0f));
-  const float D = shading::D_GGX(std::min(NoH, 1.0f), s_.alpha);
-  const float G2 = shading::G2_SmithGGXCorrelated(NoL, NoV_, s_.alpha);
-  values.specular = s_.opacity * weights.refraction * (D * G2 / (4.0f * NoV_));
-  values.specularPdf =
-      specular_ * (1.0f - reflectionProbability(weights)) * visibleNormalPdf(NoH, VoH) / std::max(4.0f * VoH, 1e-12f);
+  values.specular = s_.opacity * (throughWall ? weights.refraction : weights.reflection) * (D * G2 / (4.0f * NoV_));
+  values.specularPdf = specular_ * (throughWall ? 1.0f - reflection : reflection) * visibleNormalPdf(NoH, VoH) /
+                       std::max(4.0f * VoH, 1e-12f);
 }
 
 // Walter et al. 2007, eq. 21 times |NoL|, without its factor of n^2: the sample's weight times its density.

@@ -73,8 +73,7 @@ class Bsdf {
   ScatteredRay reflect(const glm::vec3& h, float cosine, const glm::vec3& weight, float probability) const;
   std::optional<ScatteredRay> refract(const glm::vec3& h, float cosine, const glm::vec3& weight, float probability,
                                       Sampler& sampler) const;
-  void evaluateReflection(const glm::vec3& toLight, LobeValues& values) const;
-  void evaluateThinTransmission(const glm::vec3& toLight, LobeValues& values) const;
+  void evaluateReflection(const glm::vec3& reflected, bool throughWall, LobeValues& values) const;
   void evaluateRefraction(const glm::vec3& toLight, LobeValues& values) const;
   float visibleNormalPdf(float NoH, float VoH) const;
 
