@@ -122,14 +122,16 @@ class Measurement {
   void addPassTimes(CostResult& cost) {
     const std::size_t block = snapshots_.size() - 1;
     std::vector<std::vector<double>> captureMs(static_cast<std::size_t>(bounces_));
-    std::vector<double> prefilterMs, finalMs;
+    std::vector<double> shadowMs, prefilterMs, finalMs;
     for (std::size_t frames = 0; frames < kPassFrames; frames += block) {
       const PassTimes mean = measurePasses();
       for (std::size_t b = 0; b < captureMs.size(); ++b) captureMs[b].push_back(mean.captureMs[b]);
+      shadowMs.push_back(mean.shadowMs);
       prefilterMs.push_back(mean.prefilterMs);
       finalMs.push_back(mean.finalMs);
     }
     for (std::vector<double>& iteration : captureMs) cost.captureMs.push_back(median(iteration));
+    cost.shadowMs = median(shadowMs);
     cost.prefilterMs = median(prefilterMs);
     cost.finalMs = median(finalMs);
   }
@@ -140,6 +142,7 @@ class Measurement {
     for (std::size_t i = 1; i < snapshots_.size(); ++i) {
       const PassTimes passes = sequence_.renderFrameTimed(*snapshots_[i]);
       for (std::size_t b = 0; b < passes.captureMs.size(); ++b) mean.captureMs[b] += passes.captureMs[b] / frameCount();
+      mean.shadowMs += passes.shadowMs / frameCount();
       mean.prefilterMs += passes.prefilterMs / frameCount();
       mean.finalMs += passes.finalMs / frameCount();
     }

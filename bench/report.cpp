@@ -122,6 +122,7 @@ Table costTable(const Section& section) {
        costQuantity("95 %", [](const CostResult& cost) { return intervalText(cost.ratioLow, cost.ratioHigh); }),
        costQuantity("renders/frame by formula", [](const CostResult& cost) { return cost.rendersFormula; }),
        costQuantity("measured", [](const CostResult& cost) { return countText(cost.measuredRendersPerFrame); }),
+       costQuantity("shadow ms", [](const CostResult& cost) { return formatSignificant(cost.shadowMs); }),
        costQuantity("capture ms by bounce", [](const CostResult& cost) { return captureText(cost.captureMs); }),
        costQuantity("prefilter ms", [](const CostResult& cost) { return formatSignificant(cost.prefilterMs); }),
        costQuantity("final ms", [](const CostResult& cost) { return formatSignificant(cost.finalMs); })});

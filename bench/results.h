@@ -52,6 +52,7 @@ struct CostResult {
   double plainMs = 0;                                   // plain frame, same scene and size, interleaved
   double ratio = 0, ratioLow = 0, ratioHigh = 0;        // frame / plain, median of the repetitions' own ratios
   std::vector<double> captureMs;                        // by bounce iteration, instrumented run
+  double shadowMs = 0;                                  // shadow maps, instrumented run
   double prefilterMs = 0;                               // all bounce iterations, instrumented run
   double finalMs = 0;                                   // instrumented run
   double rendersPerFrame = 0;                           // cost model: 1 + B * scheduled faces, mean over the frames

@@ -88,6 +88,7 @@ Json costToJson(const std::optional<CostResult>& cost) {
   Json json;
   json["repetitions"] = cost->repetitions;
   for (const auto& field : kCostNumbers) json[field.key] = (*cost).*field.member;
+  json["shadow_ms"] = cost->shadowMs;
   json["capture_ms"] = cost->captureMs;
   json["prefilter_ms"] = cost->prefilterMs;
   json["renders_formula"] = cost->rendersFormula;
@@ -100,7 +101,8 @@ std::optional<CostResult> costFromJson(const Json& json) {
   cost.repetitions = json.at("repetitions").get<int>();
   for (const auto& field : kCostNumbers) cost.*field.member = json.at(field.key).get<double>();
   cost.captureMs = json.at("capture_ms").get<std::vector<double>>();
-  cost.prefilterMs = json.value("prefilter_ms", 0.0);  // older results have none
+  cost.shadowMs = json.value("shadow_ms", 0.0);  // older results have neither
+  cost.prefilterMs = json.value("prefilter_ms", 0.0);
   cost.rendersFormula = json.at("renders_formula").get<std::string>();
   return cost;
 }

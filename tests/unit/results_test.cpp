@@ -59,6 +59,7 @@ TEST(Results, JsonRoundTrip_KeepsEveryMember) {
   EXPECT_EQ(a.faceAgeFrames, b.faceAgeFrames);
   EXPECT_EQ(a.cost->ratioHigh, b.cost->ratioHigh);
   EXPECT_EQ(a.cost->captureMs, b.cost->captureMs);
+  EXPECT_EQ(a.cost->shadowMs, b.cost->shadowMs);
   EXPECT_EQ(a.cost->prefilterMs, b.cost->prefilterMs);
   EXPECT_EQ(a.cost->rendersFormula, b.cost->rendersFormula);
   const CellResult& bare = after.cells.back();
@@ -73,6 +74,15 @@ TEST(Results, OneCellAlone_RoundTrips) {
   EXPECT_EQ(toJson(cellFromJson(line, "journal:1")), line);
   EXPECT_THROW(cellFromJson(line.substr(0, line.size() / 2), "journal:1"), Error);
   EXPECT_THROW(cellFromJson("{}", "journal:1"), Error);
+}
+
+TEST(Results, FromBeforeTimesOfShadowsAndFilters_AreRead) {
+  Json document = Json::parse(toJson(samples::makeResults()));
+  document["cells"][0]["cost"].erase("shadow_ms");
+  document["cells"][0]["cost"].erase("prefilter_ms");
+  const CostResult cost = *resultsFromJson(document.dump(), "memory").cells[0].cost;
+  EXPECT_EQ(cost.shadowMs, 0.0);
+  EXPECT_EQ(cost.prefilterMs, 0.0);
 }
 
 TEST(Results, ExtremeDoubles_RoundTripExactly) {
@@ -247,6 +257,7 @@ TEST(Csv, HasOneRowPerCellAndValue) {
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,mask,flip_hdr.mean,0.8\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,floor,mse,1e-09\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,cost,capture_ms.1,0.25\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,cost,shadow_ms,0.0625\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,counter,triangles,123456\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,face_age_frames.1,2.5\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:b,main,0,64,every-frame,1,whole,psnr,inf\n"));

@@ -33,6 +33,7 @@ inline CostResult makeCost(double ratio) {
   cost.ratio = ratio;
   cost.ratioLow = 0.98 * ratio;
   cost.ratioHigh = 1.02 * ratio;
+  cost.shadowMs = 0.0625;
   cost.captureMs = {0.5, 0.25};
   cost.prefilterMs = 0.125;
   cost.finalMs = 3.5;

@@ -138,6 +138,13 @@ TEST(Report, ShowsModelAndMeasuredRendersSideBySide) {
   EXPECT_THAT(makeReport(samples::makeResults()), HasSubstr("6*N*B+1 = 13 |       13 |"));
 }
 
+TEST(Report, ShowsTheTimesOfPasses) {
+  EXPECT_THAT(makeReport(samples::makeResults()),
+              HasSubstr("| shadow ms | capture ms by bounce | prefilter ms | final ms |\n"));
+  EXPECT_THAT(makeReport(samples::makeResults()),
+              HasSubstr("|    0.0625 |        0.500 + 0.250 |        0.125 |     3.50 |\n"));
+}
+
 TEST(Report, MarksErrorsThatAreNotClearOfTheFloor) {
   Results results = samples::makeResults();
   EXPECT_THAT(makeReport(results), Not(HasSubstr(" ~ ")));
