@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
@@ -29,27 +28,23 @@ void limitFileSize(long bytes) {
 }  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const ProgramOptions& options) {
-  folder_ = (std::filesystem::temp_directory_path() / "probebench-cli-XXXXXX").string();
-  if (::mkdtemp(folder_.data()) == nullptr) throw std::runtime_error("no temporary folder can be made");
   std::vector<char*> argv = {const_cast<char*>(PROBEBENCH_PROGRAM)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_ = ::fork();
   if (pid_ < 0) throw std::runtime_error("the program can't be started");
   if (pid_ > 0) return;
-  redirect(STDOUT_FILENO, options.standardOutput.empty() ? folder_ + "/out" : options.standardOutput);
-  redirect(STDERR_FILENO, folder_ + "/err");
+  redirect(STDOUT_FILENO, options.standardOutput.empty() ? folder_.file("out") : options.standardOutput);
+  redirect(STDERR_FILENO, folder_.file("err"));
   if (options.maxFileBytes > 0) limitFileSize(options.maxFileBytes);
   ::execv(PROBEBENCH_PROGRAM, argv.data());
   ::_exit(127);
 }
 
 RunningProgram::~RunningProgram() {
-  if (pid_ > 0) {
-    ::kill(pid_, SIGKILL);
-    ::waitpid(pid_, nullptr, 0);
-  }
-  std::filesystem::remove_all(folder_);
+  if (pid_ <= 0) return;
+  ::kill(pid_, SIGKILL);
+  ::waitpid(pid_, nullptr, 0);
 }
 
 void RunningProgram::signal(int number) const { ::kill(pid_, number); }
@@ -62,7 +57,7 @@ ProgramResult RunningProgram::wait() {
 }
 
 std::string RunningProgram::captured(const char* name) const {
-  const std::string path = folder_ + "/" + name;
+  const std::string path = folder_.file(name);
   return std::filesystem::exists(path) ? readFile(path) : "";
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/temporary_folder.h"
+
 namespace pb {
 
 struct ProgramResult {
@@ -34,7 +36,7 @@ class RunningProgram {
  private:
   std::string captured(const char* name) const;
 
-  std::string folder_;
+  TemporaryFolder folder_;
   pid_t pid_ = -1;
 };
 
