@@ -10,6 +10,7 @@
 #include "scenes/files.h"
 #include "scenes/gltf/document.h"
 #include "scenes/gltf_load.h"
+#include "scenes/image_io.h"
 #include "tests/temporary_folder.h"
 
 namespace pb {
@@ -74,5 +75,12 @@ class GltfFile {
   std::string data_;
   TemporaryFolder folder_;
 };
+
+inline const Mesh& onlyMesh(const Scene& scene) { return *scene.instances.at(0).mesh; }
+
+// Of the file's first material.
+inline shading::MaterialConstants constantsOf(GltfFile& file) { return file.load().materials.at(0).constants; }
+
+inline std::string grayPng(float value) { return encodePng(ImageRgba(2, 2, {value, value, value, 1.0f}), 8); }
 
 }  // namespace pb
