@@ -55,10 +55,7 @@ Texture makeBumps() {
 }
 
 Material makeTextured(std::string name, int texture, glm::vec4 sampler, glm::vec2 repeats) {
-  Material material = makeDiffuseMaterial(std::move(name), glm::vec3(1.0f));
-  material.baseColorTexture = texture;
-  material.constants.baseColorSlot.offset.w = 1.0f;
-  material.constants.baseColorSlot.matrix = {repeats.x, 0.0f, 0.0f, repeats.y};
+  Material material = makeTexturedMaterial(std::move(name), texture, repeats);
   material.constants.baseColorSlot.sampler_ = sampler;
   return material;
 }

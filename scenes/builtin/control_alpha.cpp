@@ -33,12 +33,6 @@ Texture makeChecker() {
   return makeTexture("checker", std::move(texels));
 }
 
-void useTexture(Material& material, int texture, glm::vec2 repeats) {
-  material.baseColorTexture = texture;
-  material.constants.baseColorSlot.offset.w = 1.0f;
-  material.constants.baseColorSlot.matrix = {repeats.x, 0.0f, 0.0f, repeats.y};
-}
-
 int addTransparent(Scene& scene, const char* name, glm::vec3 albedo, float opacity) {
   Material material = makeDiffuseMaterial(name, albedo);
   material.constants.baseColor.w = opacity;
@@ -55,8 +49,7 @@ Node at(glm::vec3 translation, float yawDegrees = 0.0f) {
 }
 
 void addOpaque(Scene& scene) {
-  Material floor = makeDiffuseMaterial("Floor", glm::vec3(1.0f));
-  useTexture(floor, addTexture(scene, makeChecker()), {5, 5});
+  Material floor = makeTexturedMaterial("Floor", addTexture(scene, makeChecker()), {5, 5});
   floor.constants.baseColorSlot.sampler_.z = shading::kFilterNearest;
   addInstance(scene, "Floor", finishMesh(makeQuadMesh({-5, 0, 5}, {10, 0, 0}, {0, 0, -10})),
               addMaterial(scene, std::move(floor)));
@@ -72,8 +65,7 @@ void addOpaque(Scene& scene) {
 }
 
 void addCutouts(Scene& scene) {
-  Material leaves = makeDiffuseMaterial("Leaves", glm::vec3(1.0f));
-  useTexture(leaves, addTexture(scene, makeLeaves()), {2, 2});
+  Material leaves = makeTexturedMaterial("Leaves", addTexture(scene, makeLeaves()), {2, 2});
   leaves.constants.alpha = {shading::kAlphaMask, 0.5f, 0.0f, 0.0f};
   leaves.doubleSided = true;
   const int material = addMaterial(scene, std::move(leaves));
@@ -96,8 +88,7 @@ void addTransparentShapes(Scene& scene) {
               at({-1.1f, 0.8f, 0.3f}));
   addInstance(scene, "Violet ball", ball, addTransparent(scene, "Violet", {0.5f, 0.15f, 0.7f}, 0.45f),
               at({-0.55f, 0.9f, 0.7f}));
-  Material fading = makeDiffuseMaterial("Fading leaves", glm::vec3(1.0f));
-  useTexture(fading, 1, {1, 1});
+  Material fading = makeTexturedMaterial("Fading leaves", 1, {1, 1});
   fading.constants.alpha.x = shading::kAlphaBlend;
   addInstance(scene, "Fading ball", ball, addMaterial(scene, std::move(fading)), at({1.2f, 0.9f, 0.9f}));
 }

@@ -172,12 +172,9 @@ Texture makeFloorBoards() {
 }
 
 void addRoom(Scene& scene) {
-  Material boards = makeDiffuseMaterial("Floor", glm::vec3(1.0f));
-  boards.baseColorTexture = addTexture(scene, makeFloorBoards());
-  boards.constants.baseColorSlot.offset.w = 1.0f;
-  boards.constants.baseColorSlot.matrix = {4.0f, 0.0f, 0.0f, 4.0f};
+  const int boards = addTexture(scene, makeFloorBoards());
   addInstance(scene, "Floor", finishMesh(makeQuadMesh({-6, 0, 6}, {12, 0, 0}, {0, 0, -9})),
-              addMaterial(scene, std::move(boards)));
+              addMaterial(scene, makeTexturedMaterial("Floor", boards, {4.0f, 4.0f})));
   const auto wall = [&](const char* name, glm::vec3 corner, glm::vec3 along, glm::vec3 albedo) {
     addInstance(scene, name, finishMesh(makeQuadMesh(corner, along, {0, 4, 0})),
                 addMaterial(scene, makeDiffuseMaterial(name, albedo)));

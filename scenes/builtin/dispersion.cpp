@@ -149,12 +149,8 @@ Texture makeTiles() {
 }
 
 void addGround(Scene& scene) {
-  Material material = makeDiffuseMaterial("Ground", glm::vec3(1.0f));
-  material.baseColorTexture = addTexture(scene, makeTiles());
-  shading::TextureSlot& slot = material.constants.baseColorSlot;
-  slot.offset.w = 1.0f;
-  slot.matrix = {10.0f, 0.0f, 0.0f, 10.0f};
-  slot.sampler_.z = shading::kFilterNearest;
+  Material material = makeTexturedMaterial("Ground", addTexture(scene, makeTiles()), {10.0f, 10.0f});
+  material.constants.baseColorSlot.sampler_.z = shading::kFilterNearest;
   addInstance(scene, "Ground", finishMesh(makeQuadMesh({-5, 0, 7}, {10, 0, 0}, {0, 0, -10})),
               addMaterial(scene, std::move(material)));
 }

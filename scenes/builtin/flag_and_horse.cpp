@@ -152,10 +152,8 @@ void addFlag(Scene& scene, int parent) {
   const auto pole = finishMesh(makeBoxMesh({0.06f, 2.5f, 0.06f}));
   const int stand = addNode(scene, "Flag stand", parent);
   addPart(scene, "Staff", stand, pole, staff, {-0.03f, 1.25f, 0.0f});
-  Material cloth = makeDiffuseMaterial("Cloth", glm::vec3(1.0f));
+  Material cloth = makeTexturedMaterial("Cloth", addTexture(scene, makeStripes()), {1.0f, 1.0f});
   cloth.doubleSided = true;
-  cloth.baseColorTexture = addTexture(scene, makeStripes());
-  cloth.constants.baseColorSlot.offset.w = 1.0f;
   Node node;
   node.parent = stand;
   node.translation = {0.0f, 1.5f, 0.0f};
@@ -175,12 +173,9 @@ Texture makePaving() {
 }
 
 void addGround(Scene& scene) {
-  Material material = makeDiffuseMaterial("Ground", glm::vec3(1.0f));
-  material.baseColorTexture = addTexture(scene, makePaving());
-  material.constants.baseColorSlot.offset.w = 1.0f;
-  material.constants.baseColorSlot.matrix = {8.0f, 0.0f, 0.0f, 8.0f};
+  const int paving = addTexture(scene, makePaving());
   addInstance(scene, "Ground", finishMesh(makeQuadMesh({-8, 0, 8}, {16, 0, 0}, {0, 0, -16})),
-              addMaterial(scene, std::move(material)));
+              addMaterial(scene, makeTexturedMaterial("Ground", paving, {8.0f, 8.0f})));
 }
 
 }  // namespace

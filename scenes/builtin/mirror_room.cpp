@@ -45,14 +45,6 @@ Texture makePattern() {
   return makeTexture("pattern", std::move(texels));
 }
 
-Material makeWallMaterial(const Wall& wall, int pattern) {
-  Material material = makeDiffuseMaterial(wall.name, wall.albedo);
-  material.baseColorTexture = pattern;
-  material.constants.baseColorSlot.offset.w = 1.0f;
-  material.constants.baseColorSlot.matrix = {kTilesPerWall, 0.0f, 0.0f, kTilesPerWall};
-  return material;
-}
-
 }  // namespace
 
 Scene makeMirrorRoomScene(SpecReader& parameters) {
@@ -62,7 +54,7 @@ Scene makeMirrorRoomScene(SpecReader& parameters) {
   for (const Wall& wall : kWalls)
     addInstance(scene, wall.name,
                 finishMesh(makeQuadMesh(kRoomHalfEdge * wall.p, kRoomHalfEdge * wall.u, kRoomHalfEdge * wall.v)),
-                addMaterial(scene, makeWallMaterial(wall, pattern)));
+                addMaterial(scene, makeTexturedMaterial(wall.name, pattern, glm::vec2(kTilesPerWall), wall.albedo)));
   const auto ball = finishMesh(makeSphereMesh(kBallRadius, 64, 32));
   const int mirror = addMaterial(scene, makeMirrorMaterial("Mirror"));
   for (int k = 0; k < count; ++k) {

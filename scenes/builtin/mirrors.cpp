@@ -52,11 +52,9 @@ Texture makeChecker() {
 }
 
 void addGround(Scene& scene) {
-  Material material = makeDiffuseMaterial("Ground", glm::vec3(1.0f));
-  material.baseColorTexture = addTexture(scene, makeChecker());
-  shading::TextureSlot& slot = material.constants.baseColorSlot;
-  slot.offset.w = 1.0f;
-  slot.sampler_ = {shading::kWrapClamp, shading::kWrapClamp, shading::kFilterNearest, shading::kFilterNearest};
+  Material material = makeTexturedMaterial("Ground", addTexture(scene, makeChecker()), {1.0f, 1.0f});
+  material.constants.baseColorSlot.sampler_ = {shading::kWrapClamp, shading::kWrapClamp, shading::kFilterNearest,
+                                               shading::kFilterNearest};
   Mesh mesh;
   mesh.name = "Ground";
   mesh.positions = {{-10, 0, -10}, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10}};

@@ -41,11 +41,7 @@ int checkerOf(Scene& scene) {
 }  // namespace
 
 Material makeCheckeredMaterial(Scene& scene, std::string name, glm::vec3 albedo, glm::vec2 repeats) {
-  Material material = makeDiffuseMaterial(std::move(name), albedo);
-  material.baseColorTexture = checkerOf(scene);
-  material.constants.baseColorSlot.offset.w = 1.0f;
-  material.constants.baseColorSlot.matrix = {repeats.x, 0.0f, 0.0f, repeats.y};
-  return material;
+  return makeTexturedMaterial(std::move(name), checkerOf(scene), repeats, albedo);
 }
 
 void addRoom(Scene& scene, const Bounds& room, const Walls& walls, float tileMetres) {

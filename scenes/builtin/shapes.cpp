@@ -157,6 +157,14 @@ int addTexture(Scene& scene, Texture texture) {
   return static_cast<int>(scene.textures.size()) - 1;
 }
 
+Material makeTexturedMaterial(std::string name, int texture, glm::vec2 repeats, glm::vec3 albedo) {
+  Material material = makeDiffuseMaterial(std::move(name), albedo);
+  material.baseColorTexture = texture;
+  material.constants.baseColorSlot.offset.w = 1.0f;
+  material.constants.baseColorSlot.matrix = {repeats.x, 0.0f, 0.0f, repeats.y};
+  return material;
+}
+
 glm::vec4 roundedToBytes(const glm::vec4& color) {
   const auto rounded = [](float x) { return std::round(255.0f * x) / 255.0f; };
   const auto channel = [&](float x) { return shading::srgbDecode(rounded(shading::srgbEncode(x))); };

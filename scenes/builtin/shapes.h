@@ -34,6 +34,9 @@ int addInstance(Scene& scene, std::string name, std::shared_ptr<const Mesh> mesh
 int addMaterial(Scene& scene, Material material);
 int addTexture(Scene& scene, Texture texture);
 
+// Diffuse, its base colour that of a texture of the scene, `repeats` times along u and v, times `albedo`.
+Material makeTexturedMaterial(std::string name, int texture, glm::vec2 repeats, glm::vec3 albedo = glm::vec3(1.0f));
+
 // The nearest colour (and alpha) of 8 bits, sRGB-encoded: what an exported file holds without loss.
 glm::vec4 roundedToBytes(const glm::vec4& color);
 

@@ -100,11 +100,8 @@ Texture makeFacade(std::string name, glm::vec3 wall) {
 }
 
 int addTextured(Scene& scene, std::string name, Texture texture, glm::vec2 repeats) {
-  Material material = makeDiffuseMaterial(std::move(name), glm::vec3(1.0f));
-  material.baseColorTexture = addTexture(scene, std::move(texture));
-  material.constants.baseColorSlot.offset.w = 1.0f;
-  material.constants.baseColorSlot.matrix = {repeats.x, 0.0f, 0.0f, repeats.y};
-  return addMaterial(scene, std::move(material));
+  const int index = addTexture(scene, std::move(texture));
+  return addMaterial(scene, makeTexturedMaterial(std::move(name), index, repeats));
 }
 
 // Four houses a period on either side, of different colours and heights.

@@ -28,12 +28,9 @@ Texture makeTiles() {
 }
 
 void addFloor(Scene& scene) {
-  Material material = makeDiffuseMaterial("Floor", glm::vec3(1.0f));
-  material.baseColorTexture = addTexture(scene, makeTiles());
-  material.constants.baseColorSlot.offset.w = 1.0f;
-  material.constants.baseColorSlot.matrix = {6.0f, 0.0f, 0.0f, 6.0f};
+  const int tiles = addTexture(scene, makeTiles());
   addInstance(scene, "Floor", finishMesh(makeQuadMesh({-6, 0, 6}, {12, 0, 0}, {0, 0, -12})),
-              addMaterial(scene, std::move(material)));
+              addMaterial(scene, makeTexturedMaterial("Floor", tiles, {6.0f, 6.0f})));
 }
 
 // Quarter turns as key frames: linear rotations between them are exact.
