@@ -87,9 +87,12 @@ Shard parseShard(std::string_view text) {
 Plan makePlan(const Suite& suite, const PlanFilter& filter) {
   const std::vector<Technique> techniques = expandGrid(suite);
   Plan plan;
-  for (std::size_t scene = 0; scene < suite.scenes.size(); ++scene)
+  for (std::size_t scene = 0; scene < suite.scenes.size(); ++scene) {
     for (const Technique& technique : techniques)
       plan.sequences.push_back({scene, technique, suite.scenes[scene].frames});
+    for (std::size_t external = 0; external < suite.externals.size(); ++external)
+      plan.sequences.push_back({scene, suite.technique, suite.scenes[scene].frames, external});
+  }
   requireDistinct(suite, plan.sequences);
   if (filter.only) keepOnly(suite, *filter.only, plan.sequences);
   keepShard(filter.shard, plan.sequences);
@@ -101,7 +104,11 @@ CellResult makeCell(const Suite& suite, const PlannedSequence& sequence, int fra
   cell.scene = suite.scenes[sequence.scene].name;
   cell.camera = suite.scenes[sequence.scene].camera;
   cell.frame = frame;
-  cell.technique = describe(sequence.technique);
+  // What an external program does is known by its name only.
+  if (sequence.external)
+    cell.technique = {{kExternalAxis, suite.externals[*sequence.external].name}};
+  else
+    cell.technique = describe(sequence.technique);
   return cell;
 }
 
@@ -116,9 +123,13 @@ std::string printPlan(const Suite& suite, const Plan& plan) {
     const auto sequences = std::ranges::count(plan.sequences, scene, &PlannedSequence::scene);
     text += fmt::format("  {}: {} sequences, {} measured frames\n", suite.scenes[scene].name, sequences, frames);
   }
-  text += fmt::format("{} cells in {} raster sequences, {} references, {} cost measurements of {} repetitions\n",
-                      plan.cellCount(), plan.sequences.size(), references,
-                      suite.cost.repetitions > 0 ? plan.sequences.size() : 0, suite.cost.repetitions);
+  const auto isExternal = [](const PlannedSequence& sequence) { return sequence.external.has_value(); };
+  const auto externals = static_cast<std::size_t>(std::ranges::count_if(plan.sequences, isExternal));
+  const std::size_t rasters = plan.sequences.size() - externals;
+  const std::string external = externals > 0 ? fmt::format(" and {} external ones", externals) : "";
+  text += fmt::format("{} cells in {} raster sequences{}, {} references, {} cost measurements of {} repetitions\n",
+                      plan.cellCount(), rasters, external, references, suite.cost.repetitions > 0 ? rasters : 0,
+                      suite.cost.repetitions);
   return text;
 }
 

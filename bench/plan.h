@@ -16,11 +16,13 @@ namespace pb {
 struct PlannedSequence {
   std::size_t scene = 0;  // index into Suite::scenes
   Technique technique;
-  std::vector<int> frames;  // increasing
+  std::vector<int> frames;                // increasing
+  std::optional<std::size_t> external{};  // index into Suite::externals: that in place of `technique`
 };
 
 struct Plan {
-  std::vector<PlannedSequence> sequences;  // by scene, then in grid order, the last axis fastest
+  // By scene, then in grid order, the last axis fastest; the external techniques last.
+  std::vector<PlannedSequence> sequences;
 
   std::size_t cellCount() const;
   std::vector<int> framesOf(std::size_t scene) const;  // measured in any of its sequences, increasing

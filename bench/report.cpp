@@ -157,6 +157,41 @@ std::string materialText(const Section& section) {
                      best.back()->frame, technique, toMarkdown(materialTable(best)));
 }
 
+// --- External techniques: known by name, with times of their own clocks
+
+// A quantity of the times that the program states, "-" where it states none.
+Quantity reportedQuantity(const std::string& title, std::function<std::string(const ReportedCost&)> text) {
+  return {{title}, [=](const Sequence& sequence) {
+            const std::optional<ReportedCost>& cost = sequence.front()->reportedCost;
+            return cost ? text(*cost) : "-";
+          }};
+}
+
+std::string orDash(const std::optional<double>& value) { return value ? formatSignificant(*value) : "-"; }
+
+std::string externalText(const Section& section) {
+  if (section.externals.empty()) return {};
+  Section externals = section;
+  externals.sequences = section.externals;
+  externals.axes = {{kExternalAxis, {}}};
+  std::vector<Quantity> quantities;
+  if (section.region == Region::mask) addErrors(quantities, section, Region::mask);
+  addErrors(quantities, section, Region::whole);
+  std::string text = "### External techniques\n\n" + toMarkdown(tableOfAll(externals, quantities)) + '\n';
+  const auto reports = [](const Sequence& sequence) { return sequence.front()->reportedCost.has_value(); };
+  if (std::ranges::none_of(section.externals, reports)) return text;
+  const Table times = tableOfAll(
+      externals,
+      {reportedQuantity("frame ms", [](const ReportedCost& c) { return formatSignificant(c.frameMs); }),
+       reportedQuantity("95 %", [](const ReportedCost& c) { return intervalText(c.frameMsLow, c.frameMsHigh); }),
+       reportedQuantity("frames", [](const ReportedCost& c) { return std::to_string(c.frames); }),
+       reportedQuantity("plain ms", [](const ReportedCost& c) { return orDash(c.plainMs); }),
+       reportedQuantity("x its plain", [](const ReportedCost& c) { return orDash(c.ratio()); }),
+       reportedQuantity("measured with", [](const ReportedCost& c) { return c.program; })});
+  return text + "Times as these programs report them, by their own clocks: not comparable with the costs above.\n\n" +
+         toMarkdown(times) + '\n';
+}
+
 Table workTable(const Section& section) {
   const auto counter = [](const char* title, const char* name) {
     return Quantity{{title}, [=](const Sequence& sequence) { return counterText(sequence, name); }};
@@ -265,22 +300,27 @@ std::string questionsText(const Section& section) {
 
 std::string framesText(const Section& section) {
   std::vector<int> frames;
-  for (const Sequence& sequence : section.sequences)
-    for (const CellResult* cell : sequence) frames.push_back(cell->frame);
+  for (const std::vector<Sequence>* sequences : {&section.sequences, &section.externals})
+    for (const Sequence& sequence : *sequences)
+      for (const CellResult* cell : sequence) frames.push_back(cell->frame);
   std::ranges::sort(frames);
   frames.erase(std::ranges::unique(frames).begin(), frames.end());
   return fmt::format("{} {}", frames.size() > 1 ? "frames" : "frame", fmt::join(frames, " "));
 }
 
 std::string sectionText(const Section& section) {
-  const CellResult& first = *section.sequences.front().front();
+  const bool hasOwn = !section.sequences.empty();
+  const CellResult& first = *(hasOwn ? section.sequences : section.externals).front().front();
   std::string text = fmt::format("## {}{}\n\n{}", first.scene, first.camera.empty() ? "" : ", camera " + first.camera,
                                  framesText(section));
   if (!section.fixed.empty()) text += fmt::format("; {}", fmt::join(section.fixed, ", "));
-  text += "\n\n" + questionsText(section);
+  text += "\n\n";
+  if (!hasOwn) return text + externalText(section);
+  text += questionsText(section);
   text += "### All errors\n\n" + toMarkdown(errorTable(section)) + '\n';
   text += materialText(section);
   if (hasCost(section)) text += "### All costs\n\n" + toMarkdown(costTable(section)) + '\n';
+  text += externalText(section);
   text += "### Work per frame\n\n" + toMarkdown(workTable(section)) + '\n';
   return text;
 }

@@ -60,6 +60,20 @@ struct CostResult {
   std::string rendersFormula;                           // "6*N*B+1 = 31" or "1+B*faces = 4"
 };
 
+// Frame times as an external program states them: its own clock, its own idea of a frame.
+struct ReportedCost {
+  std::string program;                                  // as it calls itself
+  int frames = 0;                                       // measured
+  double frameMs = 0, frameMsLow = 0, frameMsHigh = 0;  // median over the frames and its 95 % interval
+  std::optional<double> plainMs;                        // median of its own plain frames, if it measured any
+
+  std::optional<double> ratio() const { return plainMs ? std::optional(frameMs / *plainMs) : std::nullopt; }
+  friend bool operator==(const ReportedCost&, const ReportedCost&) = default;
+};
+
+// The one axis of cells of external techniques; its value is the technique's name.
+inline constexpr char kExternalAxis[] = "external";
+
 struct CellResult {
   std::string scene, camera;
   int frame = 0;
@@ -70,6 +84,7 @@ struct CellResult {
   MetricValues floor, maskFloor;
   MetricValues unbiased;           // "mse": mean((I-A)(I-B)), whole image
   std::optional<CostResult> cost;  // of the technique on this scene; the same for all its frames
+  std::optional<ReportedCost> reportedCost;  // of external techniques only, which have no `cost`
   // FrameCounters of this frame: "faces_captured", "draws", "triangles", "fragments", "probe_bytes", "texels_filtered".
   std::vector<std::pair<std::string, std::int64_t>> counters;
   std::vector<double> faceAgeFrames;  // mean age of the faces of each probe

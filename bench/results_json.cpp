@@ -107,6 +107,29 @@ std::optional<CostResult> costFromJson(const Json& json) {
   return cost;
 }
 
+Json reportedCostToJson(const ReportedCost& cost) {
+  const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  return {{"program", cost.program},
+          {"frames", cost.frames},
+          {"frame_ms", cost.frameMs},
+          {"frame_ms_low", cost.frameMsLow},
+          {"frame_ms_high", cost.frameMsHigh},
+          {"plain_ms", orNull(cost.plainMs)},
+          {"ratio", orNull(cost.ratio())}};
+}
+
+// `ratio` follows from the rest.
+ReportedCost reportedCostFromJson(const Json& json) {
+  ReportedCost cost;
+  cost.program = json.at("program").get<std::string>();
+  cost.frames = json.at("frames").get<int>();
+  cost.frameMs = json.at("frame_ms").get<double>();
+  cost.frameMsLow = json.at("frame_ms_low").get<double>();
+  cost.frameMsHigh = json.at("frame_ms_high").get<double>();
+  if (const Json& plain = json.at("plain_ms"); !plain.is_null()) cost.plainMs = plain.get<double>();
+  return cost;
+}
+
 constexpr Field<MaterialError, double> kMaterialNumbers[] = {
     {"mse", &MaterialError::mse},          {"relmse", &MaterialError::relmse}, {"bias", &MaterialError::bias},
     {"flip_hdr", &MaterialError::flipHdr}, {"share", &MaterialError::share},
@@ -145,6 +168,8 @@ CellResult cellFromJson(const Json& json) {
   cell.maskFloor = metricValuesFromJson(json.at("mask_floor"));
   cell.unbiased = metricValuesFromJson(json.at("unbiased"));
   cell.cost = costFromJson(json.at("cost"));
+  if (const auto reported = json.find("reported_cost"); reported != json.end())
+    cell.reportedCost = reportedCostFromJson(*reported);
   cell.counters = countersFromJson(json.at("counters"));
   cell.faceAgeFrames = json.at("face_age_frames").get<std::vector<double>>();
   // Files from before they were recorded don't have them.
@@ -221,6 +246,7 @@ Json cellToJson(const CellResult& cell) {
   json["mask_floor"] = metricValuesToJson(cell.maskFloor);
   json["unbiased"] = metricValuesToJson(cell.unbiased);
   json["cost"] = costToJson(cell.cost);
+  if (cell.reportedCost) json["reported_cost"] = reportedCostToJson(*cell.reportedCost);
   json["counters"] = countersToJson(cell.counters);
   json["face_age_frames"] = cell.faceAgeFrames;
   json["materials"] = materialsToJson(cell.materials);

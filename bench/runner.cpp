@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -11,6 +12,7 @@
 
 #include "bench/axes.h"
 #include "bench/cost.h"
+#include "bench/external.h"
 #include "bench/interrupt.h"
 #include "bench/noise.h"
 #include "bench/truth.h"
@@ -75,6 +77,10 @@ std::string fileName(std::string text) {
   return text;
 }
 
+PictureName pictureName(const Suite& suite, const Scenes& scenes, std::size_t scene) {
+  return {scenes[scene]->name, suite.scenes[scene].camera, scene, 0};
+}
+
 class Runner {
  public:
   explicit Runner(const RunContext& context) : c_(context) {
@@ -84,6 +90,7 @@ class Runner {
   RunOutcome run() {
     measureErrors();
     RunOutcome outcome;
+    outcome.skipped = skipped_;
     outcome.cells = orderedCells();
     if (c_.suite.cost.repetitions > 0) outcome.benchmarkJson = measureCost(outcome.cells);
     outcome.noisyReferences = describeNoisyReferences(outcome.cells);
@@ -138,6 +145,34 @@ class Runner {
     c_.progress.end();
   }
 
+  void measureExternal(const PlannedSequence& sequence, const Truths& truths, TaskQueue& queue) {
+    throwIfInterrupted();
+    queue.wait();  // it may measure its times
+    const ExternalTechnique& technique = c_.suite.externals[*sequence.external];
+    ExternalRequest request{technique,
+                            pictureName(c_.suite, c_.scenes, sequence.scene),
+                            c_.suite.image,
+                            describe(c_.suite.technique),
+                            {},
+                            c_.suite.cost.repetitions};
+    const std::vector<int> open = openFrames(sequence);
+    for (int frame = suiteScene(sequence.scene).startFrame(); frame <= open.back(); ++frame)
+      request.frames.push_back({frame, std::ranges::binary_search(open, frame), snapshot(sequence.scene, frame)});
+    const ExternalOutcome outcome =
+        runExternal(request, [&](int frame, Image picture, const std::optional<ReportedCost>& cost) {
+          CellResult cell = makeCell(c_.suite, sequence, frame);
+          cell.reportedCost = cost;
+          queue.run([this, &sequence, cell = std::move(cell), truth = truths.at(frame), picture = std::move(picture)] {
+            finishCell(sequence, cell, *truth, picture);
+          });
+        });
+    const std::string what = fmt::format("external {} on {}", technique.name, suiteScene(sequence.scene).name);
+    if (!outcome.messages.empty()) c_.progress.message(fmt::format("{}: {}", what, outcome.messages));
+    if (!outcome.skipped) return;
+    c_.progress.message(fmt::format("skipped: {}: {}", what, *outcome.skipped));
+    skipped_.emplace_back(what, *outcome.skipped);
+  }
+
   Truths makeTruths(std::size_t scene, const std::set<int>& frames) {
     Technique noProbes;
     noProbes.probes = ProbeUse::environmentOnly;
@@ -162,6 +197,7 @@ class Runner {
   }
 
   void measureSequence(const PlannedSequence& sequence, const Truths& truths, TaskQueue& queue) {
+    if (sequence.external) return measureExternal(sequence, truths, queue);
     const ImageSettings& image = c_.suite.image;
     RasterSequence raster(c_.device, sequence.technique, image.widthPx, image.heightPx, image.samplesPerAxis);
     const std::vector<int> open = openFrames(sequence);
@@ -171,25 +207,25 @@ class Runner {
       const FrameStats stats = raster.renderFrame(*snapshot(sequence.scene, frame), measured);
       if (!measured) continue;
       queue.run([this, &sequence, frame, stats, truth = truths.at(frame), rendered = raster.readImage()] {
-        finishCell(sequence, frame, stats, *truth, rendered);
+        CellResult cell = makeCell(c_.suite, sequence, frame);
+        cell.counters = namedCounters(stats.counters);
+        cell.faceAgeFrames = meanAges(stats.faceAgeFrames);
+        finishCell(sequence, std::move(cell), *truth, rendered);
       });
     }
   }
 
-  void finishCell(const PlannedSequence& sequence, int frame, const FrameStats& stats, const Truth& truth,
-                  const Image& image) {
-    CellResult cell = makeCell(c_.suite, sequence, frame);
+  // Scores the image; `cell` has what does not come from it.
+  void finishCell(const PlannedSequence& sequence, CellResult cell, const Truth& truth, const Image& image) {
     MetricsResult scores = truth.metrics.compare(image, truth.mask.empty() ? nullptr : &truth.mask);
     cell.metrics = scores.whole;
     cell.maskMetrics = scores.masked;
     cell.floor = truth.floor;
     cell.maskFloor = truth.maskFloor;
     cell.unbiased = {{"mse", computeUnbiasedMse(image, truth.halfA, truth.halfB)}};
-    cell.counters = namedCounters(stats.counters);
-    cell.faceAgeFrames = meanAges(stats.faceAgeFrames);
     cell.materials =
         computeMaterialErrors(*truth.snapshot->scene, truth.materials, truth.mean, image, scores.flipHdrMap);
-    if (frame == sequence.frames.back()) writeImages(sequence, frame, image, scores.flipHdrMap);
+    if (cell.frame == sequence.frames.back()) writeImages(sequence, cell.frame, image, scores.flipHdrMap);
     c_.directory.append(cell);
     const std::lock_guard lock(mutex_);
     finished_.emplace(cell.key(), std::move(cell));
@@ -199,8 +235,11 @@ class Runner {
   // The last frame of a sequence shows its whole history; the others come from `probebench render --frame`.
   void writeImages(const PlannedSequence& sequence, int frame, const Image& image, const Plane& flipMap) const {
     std::string name = frameName(sequence.scene, frame);
-    for (const auto& [axis, values] : c_.suite.grid)
-      name += fmt::format("-{}={}", axis, fileName(axisNamed(axis).print(sequence.technique)));
+    if (sequence.external)
+      name += fmt::format("-{}={}", kExternalAxis, c_.suite.externals[*sequence.external].name);
+    else
+      for (const auto& [axis, values] : c_.suite.grid)
+        name += fmt::format("-{}={}", axis, fileName(axisNamed(axis).print(sequence.technique)));
     const std::string path = (c_.directory.imagesFolder() / name).string();
     writeExr(path + ".exr", image);
     writePngEncoded(path + "-flip.png", magma(flipMap));
@@ -215,7 +254,11 @@ class Runner {
   std::vector<CellResult> orderedCells() const {
     std::vector<CellResult> cells;
     for (const PlannedSequence& sequence : c_.plan.sequences)
-      for (const int frame : sequence.frames) cells.push_back(finished_.at(makeCell(c_.suite, sequence, frame).key()));
+      for (const int frame : sequence.frames)
+        if (const auto found = finished_.find(makeCell(c_.suite, sequence, frame).key()); found != finished_.end())
+          cells.push_back(found->second);
+        else
+          assert(sequence.external && !skipped_.empty());
     return cells;
   }
 
@@ -233,7 +276,8 @@ class Runner {
   // All costs belong to one run of the machine: they are measured together, also after --resume.
   std::string measureCost(std::vector<CellResult>& cells) {
     std::vector<CostRequest> requests;
-    for (const PlannedSequence& sequence : c_.plan.sequences) requests.push_back(costRequest(sequence));
+    for (const PlannedSequence& sequence : c_.plan.sequences)
+      if (!sequence.external) requests.push_back(costRequest(sequence));
     const std::map<std::string, std::string> context = {
         {"probebench_version", toolVersion()},
         {"probebench_git", gitHash()},
@@ -246,9 +290,10 @@ class Runner {
     CostRun run = measureCosts(c_.device, c_.suite.image, requests, c_.suite.cost.repetitions, context,
                                [&] { c_.progress.step(); });
     c_.progress.end();
-    std::size_t cell = 0;
-    for (std::size_t i = 0; i < requests.size(); ++i)
-      for (std::size_t f = 0; f < c_.plan.sequences[i].frames.size(); ++f) cells[cell++].cost = run.results[i];
+    std::map<std::string, const CostResult*> costs;
+    for (std::size_t i = 0; i < requests.size(); ++i) costs[requests[i].name] = &run.results[i];
+    for (CellResult& cell : cells)
+      if (const auto cost = costs.find(cell.sequenceKey()); cost != costs.end()) cell.cost = *cost->second;
     return run.benchmarkJson;
   }
 
@@ -265,6 +310,7 @@ class Runner {
   const RunContext& c_;
   std::mutex mutex_;
   std::map<std::string, CellResult> finished_;  // by key
+  std::vector<std::pair<std::string, std::string>> skipped_;
 };
 
 }  // namespace
@@ -276,6 +322,13 @@ Scenes loadScenes(Suite& suite) {
     if (scene.camera.empty()) scene.camera = scenes.back()->cameras.front().name;
   }
   return scenes;
+}
+
+void requireExternals(const Suite& suite, const Scenes& scenes, const Plan& plan) {
+  for (const PlannedSequence& sequence : plan.sequences)
+    if (sequence.external)
+      requireAvailable(suite.externals[*sequence.external], pictureName(suite, scenes, sequence.scene),
+                       sequence.frames);
 }
 
 RunOutcome runPlan(const RunContext& context) { return Runner(context).run(); }

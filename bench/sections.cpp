@@ -35,8 +35,15 @@ void describe(Section& section) {
     else
       section.axes.push_back(std::move(axis));
   }
-  if (std::ranges::any_of(section.sequences, hasMask)) section.region = Region::mask;
-  section.severalFrames = std::ranges::any_of(section.sequences, [](const Sequence& s) { return s.size() > 1; });
+  const auto any = [&](const auto& predicate) {
+    return std::ranges::any_of(section.sequences, predicate) || std::ranges::any_of(section.externals, predicate);
+  };
+  if (any(hasMask)) section.region = Region::mask;
+  section.severalFrames = any([](const Sequence& s) { return s.size() > 1; });
+}
+
+bool isExternal(const CellResult& cell) {
+  return !cell.technique.empty() && cell.technique.front().first == kExternalAxis;
 }
 
 template <class Value>
@@ -67,7 +74,8 @@ std::vector<Section> sectionsOf(const std::vector<CellResult>& cells) {
   for (const CellResult& cell : cells) {
     const auto [view, newView] = sectionByView.try_emplace({cell.scene, cell.camera}, sections.size());
     if (newView) sections.emplace_back();
-    std::vector<Sequence>& sequences = sections[view->second].sequences;
+    Section& section = sections[view->second];
+    std::vector<Sequence>& sequences = isExternal(cell) ? section.externals : section.sequences;
     const auto [key, newKey] = sequenceByKey.try_emplace(cell.sequenceKey(), sequences.size());
     if (newKey) sequences.emplace_back();
     sequences[key->second].push_back(&cell);

@@ -21,7 +21,8 @@ struct VaryingAxis {
 
 // Everything about one scene seen through one camera.
 struct Section {
-  std::vector<Sequence> sequences;
+  std::vector<Sequence> sequences;  // of the program's own techniques; the axes are theirs
+  std::vector<Sequence> externals;  // of external techniques; not both are empty
   std::vector<VaryingAxis> axes;   // those with more than one value
   std::vector<std::string> fixed;  // "axis=value" of the others
   Region region = Region::whole;   // where errors are of most interest: the mask, if there is one

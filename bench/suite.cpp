@@ -328,6 +328,7 @@ std::vector<std::string> shippedSuites() {
   return names;
 }
 
+  suite.externals = readExternalTechniques(reader, folder);
 void setGridAxis(Suite& suite, GridAxis axis) {
   std::erase_if(suite.grid, [&](const GridAxis& other) { return other.first == axis.first; });
   suite.grid.push_back(std::move(axis));
@@ -374,6 +375,7 @@ int samplesPerAxisOf(long long samples) {
     throwInputError("samples wants a square number from 1 to 64, got {}", samples);
   return root;
 }
+  for (const ExternalTechnique& external : suite.externals) text += fmt::format("external {}\n", external.canonical);
 
 std::optional<int> parseDepth(std::string_view text) {
   if (text == "converged") return std::nullopt;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/external_technique.h"
 #include "bench/tolerance.h"
 #include "raster/technique.h"
 #include "reference/renderer.h"
@@ -58,7 +59,8 @@ struct Suite {
   CostSettings cost;
   Technique technique;  // base values of every axis
   std::vector<SuiteScene> scenes;
-  std::vector<GridAxis> grid;  // in the order of the axis table
+  std::vector<GridAxis> grid;                // in the order of the axis table
+  std::vector<ExternalTechnique> externals;  // of other programs, each once on every scene
   Tolerances tolerance;
 };
 

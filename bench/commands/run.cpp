@@ -58,6 +58,7 @@ std::string passControl(RasterDevice& device, Progress& progress) {
 }
 
 int finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& suite, RunDirectory& directory) {
+  for (const auto& [what, why] : outcome.skipped) provenance.settings.emplace_back(what, "skipped: " + why);
   const Results results{std::move(provenance), suite.tolerance, outcome.cells};
   directory.finish(results, outcome.benchmarkJson);
   fmt::print("{}", makeReport(results));
@@ -77,6 +78,7 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   }
   fmt::print(stderr, "{}", printPlan(suite, plan));
   printWarnings(scenes);
+  requireExternals(suite, scenes, plan);
 
   RasterDevice device(globals.backend());
   Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
