@@ -68,6 +68,7 @@ Bsdf::Bsdf(const shading::Surface& surface, const glm::vec3& toViewer, const Int
       refraction_(refraction),
       matched_(isMatched(surface, refraction)),
       rough_(surface.alpha > 0.0f && shading::isSpecular(surface) && !matched_),
+      straightOn_(-toViewer),
       toViewer_(toViewer),
       NoV_(std::max(glm::dot(surface.normal, toViewer), 0.0f)) {
   straight_ = 1.0f - s_.opacity;
@@ -117,13 +118,13 @@ shading::SpecularWeights Bsdf::microfacetWeights(float cosine) const {
 
 std::optional<ScatteredRay> Bsdf::sample(Sampler& sampler) const {
   if (straight_ == 1.0f)
-    return ScatteredRay{-toViewer_, glm::vec3(1.0f - s_.opacity), 0.0f, Lobe::straight, refraction_.channel};
+    return ScatteredRay{straightOn_, glm::vec3(1.0f - s_.opacity), 0.0f, Lobe::straight, refraction_.channel};
   if (specular_ == 1.0f) return sampleSpecular(sampler);
   if (diffuse_ == 1.0f) return sampleDiffuse(sampler);
   if (straight_ + specular_ + diffuse_ == 0.0f) return std::nullopt;
   const float u = sampler.next();
   if (u < straight_)
-    return ScatteredRay{-toViewer_, glm::vec3((1.0f - s_.opacity) / straight_), 0.0f, Lobe::straight,
+    return ScatteredRay{straightOn_, glm::vec3((1.0f - s_.opacity) / straight_), 0.0f, Lobe::straight,
                         refraction_.channel};
   return u < straight_ + specular_ ? sampleSpecular(sampler) : sampleDiffuse(sampler);
 }
@@ -164,7 +165,7 @@ ScatteredRay Bsdf::reflect(const glm::vec3& h, float cosine, const glm::vec3& we
   ScatteredRay ray{shading::reflectedDirection(-toViewer_, h), weight, 0.0f, Lobe::specular, refraction_.channel};
   if (!rough_) return ray;
   const float NoL = glm::dot(s_.normal, ray.direction);
-  ray.pdf = probability * visibleNormalPdf(glm::dot(s_.normal, h), cosine) / std::max(4.0f * cosine, 1e-12f);
+  ray.pdf = probability * visibleNormalPdf(h, cosine) / std::max(4.0f * cosine, 1e-12f);
   if (NoL <= 0.0f || !(ray.pdf > 0.0f)) {
     ray.weight = glm::vec3(0.0f);
     return ray;
@@ -195,13 +196,13 @@ std::optional<ScatteredRay> Bsdf::refract(const glm::vec3& h, float cosine, cons
   if (NoL >= 0.0f) return std::nullopt;
   ray.weight *= shading::G1_SmithGGX(-NoL, s_.alpha);
   if (disperses) return ray;
-  ray.pdf = probability * visibleNormalPdf(glm::dot(s_.normal, h), cosine) *
-            refractionJacobian(cosine, glm::dot(ray.direction, h), ior);
+  ray.pdf = probability * visibleNormalPdf(h, cosine) * refractionJacobian(cosine, glm::dot(ray.direction, h), ior);
   return ray.pdf > 0.0f ? std::optional(ray) : std::nullopt;
 }
 
-float Bsdf::visibleNormalPdf(float NoH, float VoH) const {
-  return shading::pdfVisibleNormal(NoV_, std::clamp(NoH, 0.0f, 1.0f), VoH, s_.alpha);
+float Bsdf::visibleNormalPdf(const glm::vec3& h, float VoH) const {
+  const float NoH = std::clamp(glm::dot(s_.normal, h), 0.0f, 1.0f);
+  return shading::pdfVisibleNormal(NoV_, NoH, shading::crossSquared(s_.normal, h), VoH, s_.alpha);
 }
 
 LobeValues Bsdf::evaluate(const glm::vec3& toLight) const {
@@ -230,10 +231,10 @@ void Bsdf::evaluateReflection(const glm::vec3& reflected, bool throughWall, Lobe
   if (VoH <= 0.0f || NoH <= 0.0f) return;
   const shading::SpecularWeights weights = microfacetWeights(std::min(VoH, 1.0f));
   const float reflection = reflectionProbability(weights);
-  const float D = shading::D_GGX(std::min(NoH, 1.0f), s_.alpha);
+  const float D = shading::D_GGX(std::min(NoH, 1.0f), shading::crossSquared(s_.normal, h), s_.alpha);
   const float G2 = shading::G2_SmithGGXCorrelated(NoL, NoV_, s_.alpha);
   values.specular = s_.opacity * (throughWall ? weights.refraction : weights.reflection) * (D * G2 / (4.0f * NoV_));
-  values.specularPdf = specular_ * (throughWall ? 1.0f - reflection : reflection) * visibleNormalPdf(NoH, VoH) /
+  values.specularPdf = specular_ * (throughWall ? 1.0f - reflection : reflection) * visibleNormalPdf(h, VoH) /
                        std::max(4.0f * VoH, 1e-12f);
 }
 
@@ -245,7 +246,7 @@ void Bsdf::evaluateRefraction(const glm::vec3& toLight, LobeValues& values) cons
   const float VoH = glm::dot(toViewer_, h), LoH = glm::dot(toLight, h);
   if (VoH <= 0.0f || LoH >= 0.0f) return;
   const shading::SpecularWeights weights = microfacetWeights(std::min(VoH, 1.0f));
-  const float normals = visibleNormalPdf(glm::dot(s_.normal, h), VoH) * refractionJacobian(VoH, LoH, ior);
+  const float normals = visibleNormalPdf(h, VoH) * refractionJacobian(VoH, LoH, ior);
   values.specular =
       s_.opacity * weights.refraction * (shading::G1_SmithGGX(-glm::dot(s_.normal, toLight), s_.alpha) * normals);
   values.specularPdf = specular_ * (1.0f - reflectionProbability(weights)) * normals;

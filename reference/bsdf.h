@@ -75,13 +75,14 @@ class Bsdf {
                                       Sampler& sampler) const;
   void evaluateReflection(const glm::vec3& reflected, bool throughWall, LobeValues& values) const;
   void evaluateRefraction(const glm::vec3& toLight, LobeValues& values) const;
-  float visibleNormalPdf(float NoH, float VoH) const;
+  float visibleNormalPdf(const glm::vec3& h, float VoH) const;
 
   const shading::Surface& s_;
   InterfaceIor refraction_;
   bool matched_;  // refracts between equal media: no interface
   bool rough_;
   shading::Frame frame_;  // around the shading normal; of spread lobes only
+  glm::vec3 straightOn_;  // past the surface
   glm::vec3 toViewer_;    // of rough surfaces: at least a little above the horizon
   float NoV_;
   glm::vec3 diffuseReflectance_{0.0f};

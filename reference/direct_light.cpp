@@ -11,7 +11,6 @@
 namespace pb {
 namespace {
 
-constexpr glm::vec4 kExactFresnel(shading::kFresnelExact, 0.0f, 0.0f, 0.0f);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Shadow rays end this share of their length before the light, so that rounding doesn't make it hide itself.
@@ -46,22 +45,12 @@ glm::vec3 unabsorbed(const Vertex& vertex, const glm::vec3& direction, float dis
   return shading::transmittance(absorption, distance);
 }
 
-struct LitSurface {
-  glm::vec3 irradiance{0.0f};
-  glm::vec3 highlights{0.0f};
-};
-
-void addPunctualLight(const Vertex& vertex, const shading::Light& light, LitSurface& lit, std::int64_t& rays) {
+glm::vec3 shadowedIrradiance(const Vertex& vertex, const shading::Light& light, std::int64_t& rays) {
   const shading::Surface& s = vertex.surface;
   const glm::vec3 fromLight = shading::lightIrradianceOn(light, s.position, s.normal);
-  if (fromLight == glm::vec3(0.0f)) return;
+  if (fromLight == glm::vec3(0.0f)) return fromLight;
   const glm::vec3 toLight = shading::lightDirection(light, s.position);
-  const float visible = visibility(vertex, toLight, distanceTo(light, s.position), rays);
-  lit.irradiance += visible * fromLight;
-  if (s.alpha > 0.0f)
-    lit.highlights +=
-        visible * fromLight *
-        shading::specularBrdf(s, vertex.toViewer, toLight, kExactFresnel, shading::kGeometrySmithCorrelated);
+  return visibility(vertex, toLight, distanceTo(light, s.position), rays) * fromLight;
 }
 
 // One of the area lights with probability in proportion to its unoccluded irradiance here.
@@ -133,20 +122,18 @@ float visibility(const Vertex& vertex, const glm::vec3& direction, float distanc
 glm::vec3 shadowedLocalRadiance(const Vertex& vertex, Sampler& sampler, std::int64_t& rays) {
   const Snapshot& snapshot = vertex.scene.snapshot;
   const shading::Surface& s = vertex.surface;
-  LitSurface lit;
+  glm::vec3 irradiance(0.0f);
   if (s.kind != shading::kSurfaceUnlit) {
-    for (const shading::Light& light : snapshot.lights) addPunctualLight(vertex, light, lit, rays);
+    for (const shading::Light& light : snapshot.lights) irradiance += shadowedIrradiance(vertex, light, rays);
     if (!snapshot.areaLights.empty() && shading::diffuseAlbedo(s) != glm::vec3(0.0f))
       if (const auto chosen = chooseAreaLight(vertex, sampler.next()))
-        lit.irradiance += sampledIrradiance(vertex, *chosen, sampler.next2(), rays);
+        irradiance += sampledIrradiance(vertex, *chosen, sampler.next2(), rays);
   }
-  return lit.highlights +
-         shading::localRadiance(s, lit.irradiance,
-                                shading::ambientRadiance(snapshot.environment().ambient, s.normal),
+  return shading::localRadiance(s, irradiance, shading::ambientRadiance(snapshot.environment().ambient, s.normal),
                                 coatAlbedo(s, vertex.toViewer));
 }
 
-DirectLight punctualLight(const Vertex& vertex, const Bsdf& bsdf, std::int64_t& rays) {
+DirectLight punctualLight(const Vertex& vertex, const Bsdf& bsdf, bool shadows, std::int64_t& rays) {
   DirectLight sum;
   const glm::vec3& position = vertex.surface.position;
   for (const shading::Light& light : vertex.scene.snapshot.lights) {
@@ -156,8 +143,8 @@ DirectLight punctualLight(const Vertex& vertex, const Bsdf& bsdf, std::int64_t& 
     const LobeValues values = bsdf.evaluate(toLight);
     if (values.diffuse + values.specular == glm::vec3(0.0f)) continue;
     const float distance = distanceTo(light, position);
-    const glm::vec3 arriving =
-        irradiance * unabsorbed(vertex, toLight, distance) * visibility(vertex, toLight, distance, rays);
+    const float visible = shadows ? visibility(vertex, toLight, distance, rays) : 1.0f;
+    const glm::vec3 arriving = visible * irradiance * unabsorbed(vertex, toLight, distance);
     sum.diffuse += values.diffuse * arriving;
     sum.specular += values.specular * arriving;
   }

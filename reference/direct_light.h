@@ -42,8 +42,8 @@ float visibility(const Vertex& vertex, const glm::vec3& direction, float distanc
 // point of one of them, chosen by its unoccluded irradiance. Emission included, ambient light unoccluded.
 glm::vec3 shadowedLocalRadiance(const Vertex& vertex, Sampler& sampler, std::int64_t& rays);
 
-// Of all punctual lights, by a shadow ray each.
-DirectLight punctualLight(const Vertex& vertex, const Bsdf& bsdf, std::int64_t& rays);
+// Of all punctual lights, with a shadow ray each if there are `shadows`.
+DirectLight punctualLight(const Vertex& vertex, const Bsdf& bsdf, bool shadows, std::int64_t& rays);
 
 // One light sample, weighted for combination with a direction found by Bsdf::sample(). `lastSpecular`: what the
 // specular lobe sees is the environment, unoccluded, and nothing else.

@@ -94,7 +94,9 @@ class Path {
     if (!traced_ && isOpaqueAndDiffuse(surface)) return false;
     if (onlyLightCounts_) return goStraightOn(hit, surface);
     const Bsdf bsdf(surface, -d_, refractionAt(interface), settings_.diffuse);
-    if (traced_ && !scene_.snapshot.lights.empty()) add(punctualLight(vertex, bsdf, result_.rays));
+    // Under local transport the diffuse base has had its light, and only rough lobes are left.
+    if (!scene_.snapshot.lights.empty() && bsdf.isSpread())
+      add(punctualLight(vertex, bsdf, traced_ || scene_.snapshot.scene->castsShadows, result_.rays));
     const bool looksForLight = scene_.lights != nullptr && bsdf.isSpread();
     if (looksForLight) add(sampledLight(vertex, bsdf, specularHits_ + 1 == settings_.depth, sampler_, result_.rays));
     return scatter(hit, surface, bsdf, looksForLight);

@@ -450,22 +450,14 @@ glm::vec3 coatAlbedo(const shading::Surface& surface, const glm::vec3& toViewer)
 }
 
 glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface, const glm::vec3& toViewer) {
-  constexpr glm::vec4 kExactFresnel(shading::kFresnelExact, 0.0f, 0.0f, 0.0f);
   glm::vec3 irradiance(0.0f);
-  glm::vec3 highlights(0.0f);
-  for (const shading::Light& light : snapshot.lights) {
-    const glm::vec3 fromLight = shading::lightIrradianceOn(light, surface.position, surface.normal);
-    irradiance += fromLight;
-    if (surface.alpha > 0.0f)
-      highlights +=
-          fromLight * shading::specularBrdf(surface, toViewer, shading::lightDirection(light, surface.position),
-                                            kExactFresnel, shading::kGeometrySmithCorrelated);
-  }
+  for (const shading::Light& light : snapshot.lights)
+    irradiance += shading::lightIrradianceOn(light, surface.position, surface.normal);
   for (const shading::AreaLight& light : snapshot.areaLights)
     irradiance += shading::areaLightIrradiance(light, surface.position, surface.normal);
-  return highlights + shading::localRadiance(surface, irradiance,
-                                             shading::ambientRadiance(snapshot.environment().ambient, surface.normal),
-                                             coatAlbedo(surface, toViewer));
+  return shading::localRadiance(surface, irradiance,
+                                shading::ambientRadiance(snapshot.environment().ambient, surface.normal),
+                                coatAlbedo(surface, toViewer));
 }
 
 }  // namespace pb

@@ -122,7 +122,7 @@ std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, con
 glm::vec3 coatAlbedo(const shading::Surface& surface, const glm::vec3& toViewer);
 
 // What a surface sends to the viewer (unit direction) without reflecting or refracting other surfaces or the
-// environment: emission, lights without shadows (highlights of punctual lights included), ambient.
+// environment and without highlights: emission, lights without shadows, ambient.
 glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface, const glm::vec3& toViewer);
 
 // What a primary sample shows, for masks and for the control's left-out pixels. Instance id is index + 1, 0 the

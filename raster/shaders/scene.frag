@@ -46,13 +46,16 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
   vec3 triangle = triangleNormal();
 #endif
   for (int i = 0; i < count; ++i) {
-    vec3 fromLight = lightIrradianceOn(lights[i], s.position, s.normal);
+    vec3 fromLight = lightIrradiance(lights[i], s.position);
 #ifdef SHADOWS
     fromLight *= lightVisibility(lights[i], s.position, triangle);
 #endif
-    irradiance += fromLight;
+    vec3 toLight = lightDirection(lights[i], s.position);
+    float NoL = dot(s.normal, toLight);
+    irradiance += max(NoL, 0.0f) * fromLight;
 #ifdef ROUGH_LOBE
-    highlights += fromLight * specularBrdf(s, toViewer, lightDirection(lights[i], s.position), kFresnelLaw, kGeometry);
+    highlights += abs(NoL) * fromLight *
+                  specularBsdf(s, toViewer, toLight, gl_FrontFacing ? s.ior : 1.0f / s.ior, kFresnelLaw, kGeometry);
 #endif
   }
 #ifdef AREA_LIGHTS

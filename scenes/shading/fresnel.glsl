@@ -29,6 +29,7 @@ PB_FUNC vec3 refractedDirection(vec3 d, vec3 n, float relativeIor) {
 // Born and Wolf, "Principles of Optics", 7th ed., section 14.2, in the real form with a^2 + b^2.
 PB_FUNC float F_ConductorChannel(float cosine, float eta, float k) {
   float c = clamp(cosine, 0.0f, 1.0f);
+  if (c == 0.0f) return 1.0f;  // also where nothing reflects otherwise, eta = 1 and k = 0: 0 / 0
   float c2 = c * c;
   float s2 = 1.0f - c2;
   float t = eta * eta - k * k - s2;

@@ -26,12 +26,19 @@ PB_FUNC vec3 toWorld(Frame f, vec3 v) { return v.x * f.tangent + v.y * f.bitange
 PB_FUNC vec3 toLocal(Frame f, vec3 v) { return vec3(dot(v, f.tangent), dot(v, f.bitangent), dot(v, f.normal)); }
 
 // Density of microfacet normals, per steradian: its integral times NoH over the hemisphere is 1.
-// Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007), eq. 33.
-PB_FUNC float D_GGX(float NoH, float alpha) {
+// Walter et al., "Microfacet Models for Refraction through Rough Surfaces" (2007), eq. 33. NxH2 is the square of the sine,
+// |N x H|^2: 1 - NoH^2 is nothing but rounding where the lobe is narrow.
+PB_FUNC float D_GGX(float NoH, float NxH2, float alpha) {
   if (NoH <= 0.0f) return 0.0f;
   float a2 = alpha * alpha;
-  float t = 1.0f - NoH * NoH + a2 * NoH * NoH;
+  float t = NxH2 + a2 * NoH * NoH;
   return a2 / (kPi * t * t);
+}
+
+// |N x H|^2 of unit vectors.
+PB_FUNC float crossSquared(vec3 n, vec3 h) {
+  vec3 c = cross(n, h);
+  return dot(c, c);
 }
 
 // Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014, eq. 72.
@@ -85,8 +92,8 @@ PB_FUNC vec3 sampleVisibleNormal(vec3 V, float alpha, vec2 u) {
 
 // Density of sampleVisibleNormal() per steradian of microfacet normals: Heitz 2014, eq. 2. The density of the direction
 // reflected there is this over 4 VoH (Walter et al. 2007, eq. 14).
-PB_FUNC float pdfVisibleNormal(float NoV, float NoH, float VoH, float alpha) {
-  return G1_SmithGGX(NoV, alpha) * D_GGX(NoH, alpha) * max(VoH, 0.0f) / max(NoV, 1e-12f);
+PB_FUNC float pdfVisibleNormal(float NoV, float NoH, float NxH2, float VoH, float alpha) {
+  return G1_SmithGGX(NoV, alpha) * D_GGX(NoH, NxH2, alpha) * max(VoH, 0.0f) / max(NoV, 1e-12f);
 }
 
 // What an ideal specular lobe reflects of uniform light, as x F0 + y F90 with Schlick's Fresnel: the directional albedo's

@@ -67,7 +67,9 @@ PB_FUNC Surface makeSurface(MaterialConstants m, vec3 position, vec3 normal, vec
   Surface s;
   s.position = position;
   s.normal = normal;
+  // Surfaces that reflect more than arrives would make light without end.
   s.baseColor = vec3(m.baseColor) * vec3(baseColorTexel) * vec3(vertexColor);
+  if (m.kind.x != kSurfaceUnlit) s.baseColor = min(s.baseColor, vec3(1.0f));
   s.opacity = clamp(m.baseColor.w * baseColorTexel.w * vertexColor.w, 0.0f, 1.0f);
   if (m.alpha.x == kAlphaMask) s.opacity = s.opacity >= m.alpha.y ? 1.0f : 0.0f;
   if (m.alpha.x == kAlphaOpaque) s.opacity = 1.0f;
@@ -167,19 +169,6 @@ PB_FUNC vec3 localRadiance(Surface s, vec3 irradiance, vec3 ambient, vec3 coat) 
   return s.emission + diffuseAlbedo(s) * (vec3(1.0f) - coat) * (irradiance / kPi + s.occlusion * ambient);
 }
 
-// BRDF (1/sr, no cosine) of the rough specular lobe for unit directions on the normal's side; 0 for smooth surfaces.
-PB_FUNC vec3 specularBrdf(Surface s, vec3 toViewer, vec3 toLight, vec4 law, float geometry) {
-  float NoV = dot(s.normal, toViewer);
-  float NoL = dot(s.normal, toLight);
-  if (s.alpha == 0.0f || !isSpecular(s) || NoV <= 0.0f || NoL <= 0.0f) return vec3(0.0f);
-  vec3 h = safeNormalize(toViewer + toLight);
-  float NoH = clamp(dot(s.normal, h), 0.0f, 1.0f);
-  float VoH = clamp(dot(toViewer, h), 0.0f, 1.0f);
-  float g = geometryTerm(geometry, NoL, NoV, NoH, VoH, s.alpha);
-  vec3 f = s.kind == kSurfaceGlass ? vec3(dielectricReflectance(law, VoH, s.ior)) : specularReflectance(s, VoH, law);
-  return f * (D_GGX(NoH, s.alpha) * g / max(4.0f * NoL * NoV, 1e-12f));
-}
-
 // Factors of the radiance looked up in the reflected and in the refracted direction of a smooth surface.
 // cosine = dot(normal, to viewer) >= 0.
 struct SpecularWeights {
@@ -202,4 +191,22 @@ PB_FUNC SpecularWeights specularWeights(Surface s, float cosine, float relativeI
     w.refraction = s.transmission * (1.0f - f) * s.baseColor;
   }
   return w;
+}
+
+// BSDF (1/sr, no cosine) of the rough specular lobe for unit directions; 0 for smooth surfaces, and for what volumes
+// transmit. A thin wall transmits the reflected lobe, mirrored (KHR_materials_transmission). relativeIor as in
+// specularWeights().
+PB_FUNC vec3 specularBsdf(Surface s, vec3 toViewer, vec3 toLight, float relativeIor, vec4 law, float geometry) {
+  bool through = isThinWalled(s) && dot(s.normal, toLight) < 0.0f;
+  vec3 l = through ? reflectedDirection(toLight, s.normal) : toLight;
+  float NoV = dot(s.normal, toViewer);
+  float NoL = dot(s.normal, l);
+  if (s.alpha == 0.0f || !isSpecular(s) || NoV <= 0.0f || NoL <= 0.0f) return vec3(0.0f);
+  vec3 h = safeNormalize(toViewer + l);
+  float NoH = clamp(dot(s.normal, h), 0.0f, 1.0f);
+  float VoH = clamp(dot(toViewer, h), 0.0f, 1.0f);
+  float g = geometryTerm(geometry, NoL, NoV, NoH, VoH, s.alpha);
+  SpecularWeights w = specularWeights(s, VoH, relativeIor, law);
+  vec3 f = through ? w.refraction : w.reflection;
+  return f * (D_GGX(NoH, crossSquared(s.normal, h), s.alpha) * g / max(4.0f * NoL * NoV, 1e-12f));
 }

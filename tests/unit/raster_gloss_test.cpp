@@ -164,7 +164,7 @@ vec3 convolved(const std::vector<Grid<vec4>>& faces, const vec3& axis, float alp
         const float NoL = glm::dot(d, axis) / distance;
         if (NoL <= 0.0f) continue;
         const float NoH = std::sqrt(0.5f * (1.0f + NoL));
-        const double weight = double{shading::D_GGX(NoH, alpha) * NoL / (distance * distance * distance)};
+        const double weight = double{shading::D_GGX(NoH, 0.5f * (1.0f - NoL), alpha) * NoL / (distance * distance * distance)};
         sum += weight * glm::dvec3(texels(x / kSplit, y / kSplit));
         weights += weight;
       }
