@@ -140,7 +140,7 @@ const std::vector<Row> kRows = {
     {49, "specularReflectance", kTranscendental, 0, "square roots, divisions and pow"},
     {50, "specularF0, specularF90", 1e-5, 0, "divisions"},
     {51, "surfaceDfg, coatAlbedo", 1e-5, 0, "bilinear weights"},
-    {52, "specularBrdf", 1e-4, 0, "D squared differences; a normalised half vector"},
+    {52, "specularBsdf", 1e-4, 0, "D squared differences; a normalised half vector"},
     {53, "specularWeights, glossy; isThinWalled", kTranscendental, 0, "products"},
     {54, "makeSurface, alpha, opacity; ggxAlpha", kArithmetic, 2e-3, "products; smooth below a step"},
     {55, "smoothUnion, subtraction, boxDistance, torusDistance", kArithmetic, 0, "products, square roots"},
