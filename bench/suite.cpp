@@ -8,6 +8,7 @@
 #include "bench/axes.h"
 #include "bench/metrics/metrics.h"
 #include "bench/toml_reader.h"
+#include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
 #include "scenes/spec.h"
@@ -128,14 +129,22 @@ int parseFrame(std::string_view text) {
   return static_cast<int>(*frame);
 }
 
+// "8", "0..7" or, every fourth of them, "0..60/4".
 std::vector<int> parseFrames(std::string_view text) {
   const std::size_t dots = text.find("..");
   const int first = parseFrame(text.substr(0, dots));
-  const int last = dots == std::string_view::npos ? first : parseFrame(text.substr(dots + 2));
-  if (last < first || static_cast<std::size_t>(last - first) >= kMaxFrames)
+  if (dots == std::string_view::npos) return {first};
+  const std::string_view rest = text.substr(dots + 2);
+  const std::size_t slash = std::min(rest.find('/'), rest.size());
+  const int last = parseFrame(rest.substr(0, slash));
+  const std::optional<long long> step = slash == rest.size() ? 1 : parseInteger(rest.substr(slash + 1));
+  if (!step || *step < 1 || *step > kMaxFrame)
+    throwInputError("the step of 'frames' is an integer from 1 to {}, as in \"0..60/4\", got '{}'", kMaxFrame, text);
+  const auto every = static_cast<int>(*step);
+  if (last < first || static_cast<std::size_t>((last - first) / every) >= kMaxFrames)
     throwInputError("'frames' wants an increasing range of at most {} frames, got '{}'", kMaxFrames, text);
   std::vector<int> frames;
-  for (int frame = first; frame <= last; ++frame) frames.push_back(frame);
+  for (int frame = first; frame <= last; frame += every) frames.push_back(frame);
   return frames;
 }
 
@@ -163,6 +172,14 @@ bool isEnvironmentFile(const std::string& environment) {
 
 std::string inFolder(const std::string& path, const std::string& folder) { return (fs::path(folder) / path).string(); }
 
+// With the files among the environments relative to the folder.
+std::string environmentsInFolder(const std::string& text, const std::string& folder) {
+  std::vector<TimedEnvironment> environments = parseEnvironments(text);
+  for (TimedEnvironment& environment : environments)
+    if (isEnvironmentFile(environment.text)) environment.text = inFolder(environment.text, folder);
+  return printEnvironments(environments);
+}
+
 // Options of loadScene() that a suite may give beside `use`.
 using SceneOptions = std::vector<std::pair<std::string, std::string>>;
 
@@ -170,6 +187,9 @@ SceneOptions readSceneOptions(TomlReader& reader) {
   SceneOptions options;
   for (const char* option : {"environment", "shadows"})
     if (const std::optional<std::string> value = reader.text(option)) options.emplace_back(option, *value);
+  for (const char* option : {"fps", "time_step"})
+    if (const std::optional<double> value = reader.number(option, 1e-3, 1e3))
+      options.emplace_back(option, fmt::format("{}", *value));
   return options;
 }
 
@@ -183,7 +203,7 @@ std::string sceneReference(const std::string& use, const SceneOptions& options, 
   }
   if (isPath(spec.name)) spec.name = inFolder(spec.name, folder);
   for (auto& [key, value] : spec.parameters)
-    if (key == "environment" && isEnvironmentFile(value)) value = inFolder(value, folder);
+    if (key == "environment") value = environmentsInFolder(value, folder);
   return printSpec(spec);
 }
 
@@ -308,6 +328,7 @@ Suite parseSuite(const std::string& toml, const std::string& place, const std::s
   suite.technique = readTechnique(reader);
   suite.scenes = readScenes(reader, folder);
   suite.grid = readGrid(reader);
+  suite.externals = readExternalTechniques(reader, folder);
   suite.tolerance = readTolerances(reader);
   reader.finish();
   return suite;
@@ -328,7 +349,6 @@ std::vector<std::string> shippedSuites() {
   return names;
 }
 
-  suite.externals = readExternalTechniques(reader, folder);
 void setGridAxis(Suite& suite, GridAxis axis) {
   std::erase_if(suite.grid, [&](const GridAxis& other) { return other.first == axis.first; });
   suite.grid.push_back(std::move(axis));
@@ -355,6 +375,7 @@ std::string canonicalText(const Suite& suite) {
     text += fmt::format("scene {} camera '{}' exposure {} frames {}\n", scene.name, scene.camera, scene.exposure,
                         framesText(scene));
   for (const auto& [axis, values] : suite.grid) text += fmt::format("grid {} = {}\n", axis, fmt::join(values, ","));
+  for (const ExternalTechnique& external : suite.externals) text += fmt::format("external {}\n", external.canonical);
   return text;
 }
 
@@ -375,7 +396,6 @@ int samplesPerAxisOf(long long samples) {
     throwInputError("samples wants a square number from 1 to 64, got {}", samples);
   return root;
 }
-  for (const ExternalTechnique& external : suite.externals) text += fmt::format("external {}\n", external.canonical);
 
 std::optional<int> parseDepth(std::string_view text) {
   if (text == "converged") return std::nullopt;

@@ -160,7 +160,8 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& actio
   command->add_option("-o", options->output, "the picture: .exr or .png")->required();
   command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
   command->add_option("--samples", options->samples, "primary samples a pixel: 1, 4, 9, ..")->capture_default_str();
-  command->add_option("--camera", options->camera, "name of a camera; the first if absent");
+  command->add_option("--camera", options->camera,
+                      "name of a camera, or orbit?radius=..&height=..&period=..; the first if absent");
   command->add_option("--frame", options->frame, "frame of the animation")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();

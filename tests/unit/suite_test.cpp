@@ -99,6 +99,20 @@ TEST(Suite, WithTheLeast_HasTheDocumentedDefaults) {
   EXPECT_TRUE(suite.grid.empty());
 }
 
+TEST(Suite, RangesWithSteps_AndTimeSteps_AreRead) {
+  const std::string scene = std::string(kHead) + "[[scene]]\nuse = \"builtin:teapot\"\n";
+  EXPECT_THAT(parse(scene + "frames = \"0..60/20\"").scenes[0].frames, ElementsAre(0, 20, 40, 60));
+  EXPECT_THAT(parse(scene + "frames = \"3..9/4\"").scenes[0].frames, ElementsAre(3, 7));
+  EXPECT_EQ(parse(scene + "fps = 12").scenes[0].reference, "builtin:teapot?fps=12");
+  EXPECT_EQ(parse(scene + "time_step = 0.25\nenvironment = \"sky\"").scenes[0].name,
+            "builtin:teapot?environment=sky&time_step=0.25");
+}
+
+TEST(Suite, EnvironmentsThatFollowEachOther_AreRelativeToTheSuiteWhereTheyAreFiles) {
+  const Suite suite = parse(std::string(kHead) + "[[scene]]\nuse = \"a.glb\"\nenvironment = \"x.exr;sky@1;y.exr@2.5\"");
+  EXPECT_EQ(suite.scenes[0].reference, "suites/a.glb?environment=suites/x.exr;sky@1;suites/y.exr@2.5");
+}
+
 TEST(Suite, EnvironmentFile_IsRelativeToTheSuiteLikeTheScene) {
   const Suite suite = parse(std::string(kHead) + "[[scene]]\nuse = \"a.glb?environment=x.exr\"\n");
   EXPECT_EQ(suite.scenes[0].reference, "suites/a.glb?environment=suites/x.exr");
@@ -150,6 +164,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuite{"[[scene]]\nuse = 3", "suites/s.toml:4: 'use' wants a string"},
         BadSuite{"[[scene]]\nuse = \"x\"\nframes = \"3..1\"",
                  "suites/s.toml:5: 'frames' wants an increasing range of at most 10000 frames, got '3..1'"},
+        BadSuite{
+            "[[scene]]\nuse = \"x\"\nframes = \"0..8/0\"",
+            "suites/s.toml:5: the step of 'frames' is an integer from 1 to 1000000, as in \"0..60/4\", got '0..8/0'"},
+        BadSuite{"[[scene]]\nuse = \"x\"\nfps = 0", "suites/s.toml:5: 'fps' wants a number from 0.001 to 1000, got 0"},
+        BadSuite{"[[scene]]\nuse = \"x\"\nenvironment = \"sky;black\"",
+                 "suites/s.toml:4: environments after the first want their time, as in 'sky;black@2', got 'black'"},
         BadSuite{"[[scene]]\nuse = \"x\"\nframes = -1",
                  "suites/s.toml:5: a frame is an integer from 0 to 1000000, got '-1'"},
         BadSuite{"[[scene]]\nuse = \"x\"\nframes = [1, 1]",
