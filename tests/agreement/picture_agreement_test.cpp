@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <memory>
 
 #include "raster/renderer.h"
@@ -115,6 +116,48 @@ TEST(Pictures, AgreeUnderAreaLightsThatCrossTheHorizon) {
 TEST(Pictures, AgreeOnMaskedAndBlendedSurfaces) {
   const auto scene = std::make_shared<const Scene>(makeBuiltinScene(parseSpec("control-alpha")));
   expectAgreement(compareRenderers(makeSnapshot(scene, 0, "", static_cast<double>(kWidth) / kHeight)), 1e-5);
+}
+
+// Frame 17 of what waves, is bent by a skin of two joints and is morphed: both renderers get the same vertices.
+TEST(Pictures, AgreeOnDeformingSurfaces) {
+  Scene scene = makeRoomWithBall();
+  Node flag;
+  flag.translation = vec3(-1.4f, 0.3f, 0.4f);
+  flag.wave = Wave{.amplitude = 0.25f, .length = 1.0f, .wavelength = 0.7f, .skew = 0.3f, .periodSeconds = 1.0f};
+  Mesh cloth = makeSphereMesh(0.4f, 48, 24);
+  for (vec3& p : cloth.positions) p.x += 0.4f;
+  addInstance(scene, "flag", finishMesh(std::move(cloth)),
+              addMaterial(scene, makeDiffuseMaterial("cloth", vec3(0.8f, 0.2f, 0.2f))), flag);
+
+  Mesh arm = makeSphereMesh(0.3f, 48, 24);
+  arm.targets.resize(1);
+  for (vec3& p : arm.positions) {
+    p.y = 2.0f * p.y + 0.6f;
+    const float upper = glm::smoothstep(0.4f, 0.8f, p.y);
+    arm.joints.emplace_back(0, 1, 0, 0);
+    arm.jointWeights.emplace_back(1.0f - upper, upper, 0.0f, 0.0f);
+    arm.targets[0].positions.push_back(0.2f * vec3(p.x, 0.0f, p.z));
+  }
+  const int lower = static_cast<int>(scene.nodes.size());
+  Node joint;
+  joint.translation = vec3(1.3f, 0.0f, 0.3f);
+  scene.nodes.push_back(joint);
+  joint.parent = lower;
+  joint.translation = vec3(0.0f, 0.6f, 0.0f);
+  joint.rotation = glm::angleAxis(0.9f, vec3(0, 0, 1));
+  joint.scale = vec3(1.0f, 1.2f, 0.7f);
+  scene.nodes.push_back(joint);
+  scene.skins.push_back(
+      {"bones", {lower, lower + 1}, {glm::mat4(1.0f), glm::translate(glm::mat4(1.0f), vec3(0.0f, -0.6f, 0.0f))}});
+  Node skinned;
+  skinned.skin = 0;
+  skinned.morphWeights = {0.7f};
+  addInstance(scene, "arm", finishMesh(std::move(arm)),
+              addMaterial(scene, makeDiffuseMaterial("skin", vec3(0.3f, 0.5f, 0.8f))), skinned);
+  addDirectionalLight(scene, "sun", vec3(1, 2, 1), vec3(3.0f));
+  finishScene(scene);
+  const auto shared = std::make_shared<const Scene>(std::move(scene));
+  expectAgreement(compareRenderers(makeSnapshot(shared, 17, "", static_cast<double>(kWidth) / kHeight)), 1e-6);
 }
 
 // Edges of shadows are not the control's; what lies inside and outside is. So most pixels agree to rounding.
