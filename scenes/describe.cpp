@@ -30,6 +30,23 @@ std::string duration(const Scene& scene) {
   return fmt::format("duration   {:.4g} s at {:.4g} frames/s\n", scene.durationSeconds, scene.framesPerSecond);
 }
 
+std::string deformations(const Scene& scene) {
+  std::string lines;
+  for (const Instance& instance : scene.instances) {
+    if (!deforms(scene, instance)) continue;
+    const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
+    std::vector<std::string> parts;
+    if (!instance.mesh->targets.empty())
+      parts.push_back(fmt::format("{} morph targets", instance.mesh->targets.size()));
+    if (node.wave) parts.push_back(fmt::format("a wave of {:.4g} s", node.wave->periodSeconds));
+    if (node.skin >= 0 && !instance.mesh->joints.empty())
+      parts.push_back(
+          fmt::format("a skin of {} joints", scene.skins[static_cast<std::size_t>(node.skin)].joints.size()));
+    lines += fmt::format("deforming  '{}': {}\n", instance.name, fmt::join(parts, ", "));
+  }
+  return lines;
+}
+
 std::string bounds(const Scene& scene) {
   Bounds all;
   for (const WorldMesh& m : worldMeshes(scene, 0.0)) all.include(transformed(m.mesh->bounds, m.worldFromObject));
@@ -80,12 +97,18 @@ std::string shadows(const Scene& scene) {
   return fmt::format("shadows    {}\n", scene.castsShadows ? "traced" : "none");
 }
 
-std::string environment(const Scene& scene) {
-  const Environment& e = scene.environment;
-  const std::string kind =
-      e.sky.toGlow.w > 0.5f ? fmt::format("cube map of 6 x {0} x {0} texels", e.faces.front().width()) : "gradient";
-  return fmt::format("environment '{}', {}, mean ambient radiance {}\n", e.name, kind,
-                     text(glm::vec3(e.ambient.constant)));
+std::string environments(const Scene& scene) {
+  std::string lines;
+  for (std::size_t i = 0; i <= scene.environmentChanges.size(); ++i) {
+    const Environment& e = scene.environmentAt(i);
+    const std::string from =
+        i == 0 ? "" : fmt::format(" from {:.4g} s on", scene.environmentChanges[i - 1].timeSeconds);
+    const std::string kind =
+        e.sky.toGlow.w > 0.5f ? fmt::format("cube map of 6 x {0} x {0} texels", e.faces.front().width()) : "gradient";
+    lines += fmt::format("environment '{}'{}, {}, mean ambient radiance {}\n", e.name, from, kind,
+                         text(glm::vec3(e.ambient.constant)));
+  }
+  return lines;
 }
 
 std::string sentences(const char* kind, const std::vector<std::string>& list) {
@@ -97,9 +120,9 @@ std::string sentences(const char* kind, const std::vector<std::string>& list) {
 }  // namespace
 
 std::string describe(const Scene& scene) {
-  return fmt::format("scene      {}\n", scene.name) + counts(scene) + duration(scene) + bounds(scene) + room(scene) +
-         cameras(scene) + probes(scene) + environment(scene) + shadows(scene) + sentences("note:", scene.notes) +
-         sentences("warning:", scene.warnings);
+  return fmt::format("scene      {}\n", scene.name) + counts(scene) + duration(scene) + deformations(scene) +
+         bounds(scene) + room(scene) + cameras(scene) + probes(scene) + environments(scene) + shadows(scene) +
+         sentences("note:", scene.notes) + sentences("warning:", scene.warnings);
 }
 
 }  // namespace pb

@@ -288,12 +288,28 @@ TEST(SaveGlb, WritesExtrasOfMaterialsAndNodesThatMatchTheirSchema) {
   EXPECT_EQ(withExtras, 6);  // two metals, four screens
 }
 
+TEST(SaveGlb, WritesWavesAndEnvironmentChangesThatMatchTheirSchema) {
+  const nlohmann::json file = savedJson(*loadScene("builtin:flag-and-horse?environment=sky;black@2"));
+  EXPECT_NO_THROW(parsePart(file["scenes"][0]["extras"]["probebench"].dump(), "extras", schemaOf()));
+  int waves = 0;
+  for (const nlohmann::json& node : file["nodes"]) {
+    if (!node.contains("extras")) continue;
+    nlohmann::json extras = node["extras"]["probebench"];
+    EXPECT_NO_THROW(parsePart(extras.dump(), "extras", schemaOf("node")));
+    extras["wave"]["length"] = 0;
+    EXPECT_THROW(parsePart(extras.dump(), "extras", schemaOf("node")), Error);
+    ++waves;
+  }
+  EXPECT_EQ(waves, 1);
+}
+
 // Written by hand: what the loader takes is what the schema allows.
 TEST(SceneExtras, BySchemaAndLoader_AreJudgedAlike) {
   const char* const accepted[] = {
       R"({"schema": 1})",
       R"({"schema": 1, "environment": {"constant": 0.5}, "shadows": "traced"})",
       R"({"schema": 1, "environment": {"sky": {"horizon": 1, "zenith": [0, 0, 1], "below": 0}}})",
+      R"({"schema": 1, "environmentChanges": [{"fromSeconds": 2, "environment": {"constant": 0.5}}]})",
       R"({"schema": 1, "screens": [{"program": "rings"}, {"program": "melt", "size": [8, 8], "phase": -0.5}]})",
   };
   const char* const refused[] = {
@@ -303,6 +319,9 @@ TEST(SceneExtras, BySchemaAndLoader_AreJudgedAlike) {
       R"({"schema": 1, "environment": {"constant": 1, "sky": {"horizon": 1, "zenith": 1, "below": 1}}})",
       R"({"schema": 1, "environment": {"constant": [1, 2]}})",
       R"({"schema": 1, "environment": {"sky": {"horizon": 1, "zenith": 1, "below": 1, "glow": 1}}})",
+      R"({"schema": 1, "environmentChanges": [{"fromSeconds": 0, "environment": {"constant": 0.5}}]})",
+      R"({"schema": 1, "environmentChanges": [{"fromSeconds": 2}]})",
+      R"({"schema": 1, "environmentChanges": {"fromSeconds": 2, "environment": {"constant": 0.5}}})",
       R"({"schema": 1, "screens": [{"program": "snow"}]})",
       R"({"schema": 1, "screens": [{"program": "melt", "size": [0, 8]}]})",
       R"({"schema": 1, "probeNear": 0})",

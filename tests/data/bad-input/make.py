@@ -340,7 +340,17 @@ def _(scene):
     scene.json["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 0})
 
 
-setting("warn-morph-targets", "meshes/0/primitives/0/targets", [{"POSITION": 0}])
+setting("warn-morph-targets-of-colors", "meshes/0/primitives/0/targets", [{"POSITION": 0, "COLOR_0": 0}])
+setting("morph-target-accessor-out-of-range", "meshes/0/primitives/0/targets", [{"POSITION": 99}])
+setting("morph-targets-number", "meshes/0/primitives/0/targets", 3)
+setting("morph-target-of-scalars", "meshes/0/primitives/0/targets", [{"POSITION": 3}])
+setting("morph-weights-text", "meshes/0/weights", ["much"])
+setting("skin-joint-out-of-range", "skins", [{"joints": [99]}])
+setting("skin-without-joints", "skins", [{"name": "bones"}])
+setting("wave-period-zero", "nodes/0/extras", {"probebench": {"wave": {"periodSeconds": 0}}})
+setting("environment-changes-not-increasing", "scenes/0/extras",
+        {"probebench": {"schema": 1, "environmentChanges": [{"fromSeconds": 2, "environment": {"constant": 1}},
+                                                            {"fromSeconds": 2, "environment": {"constant": 0}}]}})
 setting("warn-skin", "skins", [{"joints": [0]}])
 setting("warn-extension-used", "extensionsUsed", ["EXT_unheard_of"])
 setting("warn-extras-member-unknown", "scenes/0/extras", {"probebench": {"schema": 1, "shadow": "none"}})
