@@ -12,6 +12,7 @@
 
 #include "bench/interrupt.h"
 #include "bench/statistics.h"
+#include "raster/captured_faces.h"
 #include "raster/refresh.h"
 #include "scenes/error.h"
 
@@ -246,13 +247,15 @@ class CostSession {
 }  // namespace
 
 int blockFrames(const Technique& technique, int probes, int measuredFrames) {
-  const int cycle = std::max(1, refreshPolicy(technique.refresh).cycle(technique.refresh, probes));
+  const int faces = probes * capturedFaceCount(technique.faces);
+  const int cycle = std::max(1, refreshPolicy(technique.refresh).cycle(technique.refresh, faces));
   const int cycles = std::max(1, (measuredFrames + cycle - 1) / cycle);
   return static_cast<int>(std::min<long long>(static_cast<long long>(cycle) * cycles, kMaxBlockFrames));
 }
 
 RenderCount modelRenders(const Technique& technique, const Snapshots& snapshots) {
   RefreshHistory history;
+  history.technique = technique;
   double faces = 0;
   // The first frame captures everything; the second pass over the block is the one that repeats for ever.
   advance(history, dueFaces(technique.refresh, history, *snapshots[0]), *snapshots[0]);

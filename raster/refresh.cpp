@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "raster/captured_faces.h"
+#include "raster/reflection.h"
+#include "raster/refraction.h"
 #include "raster/refresh/policies.h"
 #include "scenes/error.h"
 
@@ -16,8 +19,9 @@ void mixIn(std::uint64_t& hash, const T& value) {
   hash = XXH3_64bits_withSeed(&value, sizeof value, hash);
 }
 
-bool owns(const Probe& probe, std::size_t instance) {
-  return std::ranges::find(probe.owners, static_cast<int>(instance)) != probe.owners.end();
+template <class T>
+T& at(ByProbeAndFace<T>& values, const ProbeFace& f) {
+  return values[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)];
 }
 
 bool neverCaptured(const RefreshHistory& history, const ProbeFace& f) {
@@ -26,28 +30,78 @@ bool neverCaptured(const RefreshHistory& history, const ProbeFace& f) {
          history.lastCapturedFrame[probe][static_cast<std::size_t>(f.face)] < 0;
 }
 
-}  // namespace
-
-std::uint64_t visibleContentHash(const Snapshot& snapshot, int probe) {
-  const Probe& captured = snapshot.probes[static_cast<std::size_t>(probe)];
+// What all captures show.
+std::uint64_t commonHash(const Snapshot& snapshot, const std::vector<std::uint64_t>& instances) {
   std::uint64_t hash = 0;
-  mixIn(hash, captured.position);
-  mixIn(hash, captured.zNear);
-  for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
-    if (owns(captured, i)) continue;
-    const SnapshotInstance& instance = snapshot.instances[i];
-    mixIn(hash, i);
-    mixIn(hash, instance.mesh->contentHash);
-    mixIn(hash, instance.material);
-    mixIn(hash, instance.worldFromObject);
-  }
   for (const shading::Light& light : snapshot.lights) mixIn(hash, light);
   for (const shading::AreaLight& light : snapshot.areaLights) mixIn(hash, light);
-  if (!snapshot.screens.empty()) mixIn(hash, snapshot.timeSeconds);
+  // What throws a shadow into a picture may stand anywhere.
+  if (snapshot.scene->castsShadows && !snapshot.lights.empty())
+    for (const std::uint64_t instance : instances) mixIn(hash, instance);
   mixIn(hash, snapshot.environmentIndex);
   mixIn(hash, snapshot.environment().sky);
   mixIn(hash, snapshot.environment().ambient);
   return hash;
+}
+
+bool isHidden(const Technique& technique, const Snapshot& snapshot, const Probe& probe, int instance) {
+  if (std::ranges::find(probe.owners, instance) == probe.owners.end()) return false;
+  return !isCapturedFromInside(technique, snapshot.materialOf(snapshot.instances[static_cast<std::size_t>(instance)]));
+}
+
+// By the largest of the three distances along the axes: never more than what a far plane, or a far sphere, goes by.
+bool isTooFar(const Technique& technique, const glm::vec3& origin, const Bounds& box) {
+  const glm::vec3 offset = glm::abs(glm::clamp(origin, box.lower, box.upper) - origin);
+  return technique.captureFar > 0.0f && std::max({offset.x, offset.y, offset.z}) > technique.captureFar;
+}
+
+std::vector<int> instancesSeen(const Technique& technique, const Snapshot& snapshot, const ProbeFace& f) {
+  const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];
+  const shading::View view = cubeFaceView(probe.position, f.face, probe.zNear);
+  const FacePart part = capturedPart(technique.faces, f.face);
+  std::vector<int> seen;
+  for (int i = 0; i < static_cast<int>(snapshot.instances.size()); ++i) {
+    const Bounds& box = snapshot.instances[static_cast<std::size_t>(i)].worldBounds;
+    if (!isOutsidePart(box, view, part) && !isTooFar(technique, probe.position, box) &&
+        !isHidden(technique, snapshot, probe, i))
+      seen.push_back(i);
+  }
+  return seen;
+}
+
+std::vector<std::uint64_t> instanceHashes(const Snapshot& snapshot) {
+  std::vector<std::uint64_t> hashes;
+  for (const SnapshotInstance& instance : snapshot.instances) hashes.push_back(instanceHash(snapshot, instance));
+  return hashes;
+}
+
+}  // namespace
+
+std::uint64_t instanceHash(const Snapshot& snapshot, const SnapshotInstance& instance) {
+  std::uint64_t hash = 0;
+  mixIn(hash, instance.mesh->contentHash);
+  mixIn(hash, instance.material);
+  mixIn(hash, instance.worldFromObject);
+  if (snapshot.materialOf(instance).screen >= 0) mixIn(hash, snapshot.timeSeconds);
+  return hash;
+}
+
+ByProbeAndFace<FaceContent> faceContents(const Technique& technique, const Snapshot& snapshot) {
+  const std::vector<std::uint64_t> hashes = instanceHashes(snapshot);
+  const std::uint64_t common = commonHash(snapshot, hashes);
+  ByProbeAndFace<FaceContent> contents(snapshot.probes.size());
+  for (const ProbeFace& f : capturedFaces(technique, snapshot)) {
+    FaceContent& content = at(contents, f);
+    content.instances = instancesSeen(technique, snapshot, f);
+    content.hash = common;
+    mixIn(content.hash, snapshot.probes[static_cast<std::size_t>(f.probe)].position);
+    mixIn(content.hash, snapshot.probes[static_cast<std::size_t>(f.probe)].zNear);
+    for (const int instance : content.instances) {
+      mixIn(content.hash, instance);
+      mixIn(content.hash, hashes[static_cast<std::size_t>(instance)]);
+    }
+  }
+  return contents;
 }
 
 std::vector<ProbeFace> allFaces(const Snapshot& snapshot) {
@@ -57,36 +111,64 @@ std::vector<ProbeFace> allFaces(const Snapshot& snapshot) {
   return faces;
 }
 
+std::vector<ProbeFace> capturedFaces(const Technique& technique, const Snapshot& snapshot) {
+  std::vector<ProbeFace> faces = allFaces(snapshot);
+  std::erase_if(faces, [&](const ProbeFace& f) { return capturedPart(technique.faces, f.face) == FacePart::nothing; });
+  return faces;
+}
+
+Bounds boundsOfOwners(const Snapshot& snapshot, const Probe& probe) {
+  Bounds bounds;
+  for (const int owner : probe.owners) bounds.include(snapshot.instances[static_cast<std::size_t>(owner)].worldBounds);
+  if (bounds.empty()) bounds.include(probe.position);
+  return bounds;
+}
+
+std::vector<int> probesShownBy(const Technique& technique, const Snapshot& snapshot, int instance) {
+  const Reflection reflection =
+      reflectionOf(technique, snapshot, snapshot.instances[static_cast<std::size_t>(instance)]);
+  return reflection.probe >= 0 ? std::vector<int>{reflection.probe} : std::vector<int>{};
+}
+
+std::int64_t ageOf(const RefreshHistory& history, const ProbeFace& face) {
+  if (neverCaptured(history, face)) return history.frame;
+  return history.frame -
+         history.lastCapturedFrame[static_cast<std::size_t>(face.probe)][static_cast<std::size_t>(face.face)];
+}
+
 SpecReader policyReader(const Spec& spec) { return {spec, "refresh '" + printSpec(spec) + "'"}; }
 
 std::vector<ProbeFace> dueFaces(const Spec& policy, const RefreshHistory& history, const Snapshot& snapshot) {
-  std::vector<std::array<bool, 6>> chosen(snapshot.probes.size());
-  for (const ProbeFace& f : refreshPolicy(policy).make(policy)(history, snapshot))
-    chosen[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)] = true;
-  std::vector<ProbeFace> due = allFaces(snapshot);
-  std::erase_if(due, [&](const ProbeFace& f) {
-    return !chosen[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)] && !neverCaptured(history, f);
-  });
+  ByProbeAndFace<bool> chosen(snapshot.probes.size());
+  for (const ProbeFace& f : refreshPolicy(policy).make(policy)(history, snapshot)) at(chosen, f) = true;
+  std::vector<ProbeFace> due = capturedFaces(history.technique, snapshot);
+  std::erase_if(due, [&](const ProbeFace& f) { return !at(chosen, f) && !neverCaptured(history, f); });
   return due;
 }
 
 void advance(RefreshHistory& history, const std::vector<ProbeFace>& faces, const Snapshot& snapshot) {
   constexpr std::array<std::int64_t, 6> kNever = {-1, -1, -1, -1, -1, -1};
   history.lastCapturedFrame.resize(snapshot.probes.size(), kNever);
-  history.contentAtCapture.resize(snapshot.probes.size(), 0);
-  int hashed = -1;
+  history.contentAtCapture.resize(snapshot.probes.size());
+  const ByProbeAndFace<FaceContent> contents = faceContents(history.technique, snapshot);
   for (const ProbeFace& f : faces) {
-    const auto probe = static_cast<std::size_t>(f.probe);
-    history.lastCapturedFrame[probe][static_cast<std::size_t>(f.face)] = history.frame;
-    if (f.probe != hashed) history.contentAtCapture[probe] = visibleContentHash(snapshot, f.probe);
-    hashed = f.probe;
+    at(history.lastCapturedFrame, f) = history.frame;
+    at(history.contentAtCapture, f) =
+        contents[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)].hash;
   }
+  std::vector<std::uint64_t> instances = instanceHashes(snapshot);
+  history.instances.resize(instances.size());
+  history.lastChangedFrame.resize(instances.size());
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    if (instances[i] != history.instances[i]) history.lastChangedFrame[i] = history.frame;
+  history.instances = std::move(instances);
   ++history.frame;
 }
 
 const std::vector<RefreshPolicy>& refreshPolicies() {
-  static const std::vector<RefreshPolicy> table = {everyFramePolicy(), everyNPolicy(), facesPolicy(), onChangePolicy(),
-                                                   staticPolicy()};
+  static const std::vector<RefreshPolicy> table = {everyFramePolicy(), everyNPolicy(),       facesPolicy(),
+                                                   onChangePolicy(),   staticPolicy(),       distanceScaledPolicy(),
+                                                   budgetPolicy(),     cameraVisiblePolicy()};
   return table;
 }
 

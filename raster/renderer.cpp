@@ -109,6 +109,7 @@ RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& techniq
       heightPx(heightPx_),
       samplesPerAxis(samplesPerAxis_),
       layout(technique_) {
+  history.technique = technique;
   checkLookup(technique.lookup);
   refreshPolicy(technique.refresh);  // refuses a bad one
   fresnelLaw(technique.fresnel);

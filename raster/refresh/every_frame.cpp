@@ -5,7 +5,9 @@ namespace {
 
 RefreshPolicy::Function make(const Spec& spec) {
   policyReader(spec).finish();
-  return [](const RefreshHistory&, const Snapshot& snapshot) { return allFaces(snapshot); };
+  return [](const RefreshHistory& history, const Snapshot& snapshot) {
+    return capturedFaces(history.technique, snapshot);
+  };
 }
 
 }  // namespace

@@ -3,16 +3,25 @@
 namespace pb {
 namespace {
 
-int readN(const Spec& spec) {
+struct Settings {
+  int n;
+  bool together;
+};
+
+Settings read(const Spec& spec) {
   SpecReader reader = policyReader(spec);
-  const int n = reader.integer("n", 1, 1000, 4);
+  const Settings settings = {reader.integer("n", 1, 1000, 4), reader.integer("together", 0, 1, 0) == 1};
   reader.finish();
-  return n;
+  return settings;
 }
 
 RefreshPolicy::Function make(const Spec& spec) {
-  return [n = readN(spec)](const RefreshHistory& history, const Snapshot& snapshot) {
-    return history.frame % n == 0 ? allFaces(snapshot) : std::vector<ProbeFace>{};
+  return [settings = read(spec)](const RefreshHistory& history, const Snapshot& snapshot) {
+    std::vector<ProbeFace> faces = capturedFaces(history.technique, snapshot);
+    std::erase_if(faces, [&](const ProbeFace& f) {
+      return (history.frame + (settings.together ? 0 : f.probe)) % settings.n != 0;
+    });
+    return faces;
   };
 }
 
@@ -20,11 +29,13 @@ RefreshPolicy::Function make(const Spec& spec) {
 
 RefreshPolicy everyNPolicy() {
   return {.name = "every-n",
-          .parameters = "n = frames between captures, 1 to 1000, default 4",
-          .description = "Captures all faces of all probes together in every n-th frame, nothing in between.",
+          .parameters =
+              "n = frames between a probe's captures, 1 to 1000, default 4; together = 1: all probes in the "
+              "same frames, default 0",
+          .description = "Captures all faces of a probe in every n-th frame, another probe in each frame.",
           .source = "Unity: a probe's RenderProbe() called by a script every few frames",
           .make = make,
-          .cycle = [](const Spec& spec, int) { return readN(spec); }};
+          .cycle = [](const Spec& spec, int) { return read(spec).n; }};
 }
 
 }  // namespace pb

@@ -16,7 +16,7 @@ int readK(const Spec& spec) {
 // k faces from where the frame before stopped; frame 0 captures everything, so frame 1 begins with the first face.
 RefreshPolicy::Function make(const Spec& spec) {
   return [k = readK(spec)](const RefreshHistory& history, const Snapshot& snapshot) {
-    std::vector<ProbeFace> faces = allFaces(snapshot);
+    std::vector<ProbeFace> faces = capturedFaces(history.technique, snapshot);
     if (history.frame == 0 || static_cast<std::size_t>(k) >= faces.size()) return faces;
     const auto start = static_cast<std::size_t>(k * (history.frame - 1)) % faces.size();
     std::ranges::rotate(faces, faces.begin() + static_cast<std::ptrdiff_t>(start));
@@ -25,8 +25,8 @@ RefreshPolicy::Function make(const Spec& spec) {
   };
 }
 
-int cycle(const Spec& spec, int probes) {
-  const int faces = std::max(6 * probes, 1);
+int cycle(const Spec& spec, int allFaces) {
+  const int faces = std::max(allFaces, 1);
   const int k = std::min(readK(spec), faces);
   return faces / std::gcd(faces, k);
 }

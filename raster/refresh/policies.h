@@ -6,6 +6,9 @@
 
 namespace pb {
 
+RefreshPolicy budgetPolicy();
+RefreshPolicy cameraVisiblePolicy();
+RefreshPolicy distanceScaledPolicy();
 RefreshPolicy everyFramePolicy();
 RefreshPolicy everyNPolicy();
 RefreshPolicy facesPolicy();
@@ -14,6 +17,18 @@ RefreshPolicy staticPolicy();
 
 // All faces of all probes, ordered by probe, then face.
 std::vector<ProbeFace> allFaces(const Snapshot& snapshot);
+
+// Those of which at least a part is captured.
+std::vector<ProbeFace> capturedFaces(const Technique& technique, const Snapshot& snapshot);
+
+// Around all owners of the probe; the probe's position if it has none.
+Bounds boundsOfOwners(const Snapshot& snapshot, const Probe& probe);
+
+// The probes whose maps the instance shows.
+std::vector<int> probesShownBy(const Technique& technique, const Snapshot& snapshot, int instance);
+
+// Frames since the face was captured: 1 if that was in the frame before.
+std::int64_t ageOf(const RefreshHistory& history, const ProbeFace& face);
 
 // Reads a policy's parameters; name them all, then finish().
 SpecReader policyReader(const Spec& spec);

@@ -1,0 +1,25 @@
+// Which parts of the cube around a probe are captured: pure functions.
+#pragma once
+
+#include "raster/technique.h"
+#include "scenes/scene.h"
+#include "scenes/shading/shading.h"
+
+namespace pb {
+
+enum class FacePart { whole, upperHalf, nothing };
+
+// Of face 0..5 (+X -X +Y -Y +Z -Z). The rest of the face shows the environment.
+FacePart capturedPart(CapturedFaces faces, int face);
+
+// Faces of which at least a part is captured, 4 to 6.
+int capturedFaceCount(CapturedFaces faces);
+
+// isOutsideFrustum() for the part of the face that `view` shows.
+bool isOutsidePart(const Bounds& box, const shading::View& view, FacePart part);
+
+// Rows of a face of n x n texels that hold the part, from row 0 in memory on. The four sides have +Y at row 0:
+// cubeFaceDown() in scenes/shading/cubemap.glsl is -Y for all of them.
+int rowsOf(FacePart part, int n);
+
+}  // namespace pb
