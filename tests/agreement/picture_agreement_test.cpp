@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <memory>
+#include <optional>
 
 #include "raster/renderer.h"
 #include "reference/renderer.h"
@@ -40,7 +41,8 @@ bool showsTheSame(const Grid<SampleId>& a, const Grid<SampleId>& b, int x, int y
   return true;
 }
 
-Agreement compareRenderers(const std::shared_ptr<const Snapshot>& snapshot) {
+// depth: specular hits of the reference's paths, none for all.
+Agreement compareRenderers(const std::shared_ptr<const Snapshot>& snapshot, std::optional<int> depth = {}) {
   RasterDevice device(kBackend);
   RasterSequence sequence(device, Technique{}, kWidth, kHeight, kSamplesPerAxis);
   sequence.renderFrame(*snapshot);
@@ -51,6 +53,7 @@ Agreement compareRenderers(const std::shared_ptr<const Snapshot>& snapshot) {
   ReferenceSettings settings;
   settings.samplesPerAxis = kSamplesPerAxis;
   settings.spp = 2;
+  settings.depth = depth;
   const Image reference = scene.render(snapshot->camera, kWidth, kHeight, settings).mean();
   const Grid<SampleId> referenceIds = scene.renderIds(snapshot->camera, kWidth, kHeight, kSamplesPerAxis);
 
@@ -116,6 +119,46 @@ TEST(Pictures, AgreeUnderAreaLightsThatCrossTheHorizon) {
 TEST(Pictures, AgreeOnMaskedAndBlendedSurfaces) {
   const auto scene = std::make_shared<const Scene>(makeBuiltinScene(parseSpec("control-alpha")));
   expectAgreement(compareRenderers(makeSnapshot(scene, 0, "", static_cast<double>(kWidth) / kHeight)), 1e-5);
+}
+
+Material makeRough(Material material, float roughness) {
+  material.constants.factors.y = roughness;
+  return material;
+}
+
+// Highlights are all that is to be seen, after one hit under a black sky. A wall lit from the front and one lit from
+// behind, and a metal so smooth that its lobe is a thousandth of a radian wide.
+TEST(Pictures, AgreeOnHighlightsOfThinWallsAndNarrowLobes) {
+  Scene scene;
+  scene.environment = makeConstantEnvironment(vec3(0.0f));
+  addCamera(scene, "camera", vec3(0, 0.5f, 4), vec3(0), 0.8f, 0.1f);
+  Material wall = makeRough(makeGlassMaterial("wall", 1.5f, 0.0f), 0.3f);
+  wall.doubleSided = true;
+  addQuad(scene, vec3(-2, -1, 0), vec3(1.2f, 0, 0.3f), vec3(0, 2, 0.2f), wall);
+  addQuad(scene, vec3(0.8f, 1, -0.5f), vec3(1.2f, 0, -0.2f), vec3(0.1f, -2, 0.3f), wall);
+  addQuad(scene, vec3(-0.6f, -1, 0.1f), vec3(1.3f, 0, 0.2f), vec3(0, 2, -0.9f),
+          makeMetalMaterial("metal", vec3(0.2f, 0.4f, 1.0f), vec3(3.3f, 2.5f, 1.8f), 0.033f));
+  addDirectionalLight(scene, "behind", vec3(0.2f, 0.4f, -1), vec3(2.0f));
+  addDirectionalLight(scene, "front", vec3(-0.1f, 0.5f, 1), vec3(3.0f));
+  expectAgreement(compareRenderers(snapshotOf(std::move(scene)), 1), 1e-6);
+}
+
+// The inside of a glass ball reflects by the index seen from inside.
+TEST(Pictures, AgreeOnHighlightsInsideOfGlass) {
+  Scene scene;
+  scene.environment = makeConstantEnvironment(vec3(0.0f));
+  addCamera(scene, "camera", vec3(0, 0.5f, 1), vec3(0), 0.8f, 0.1f);
+  addInstance(scene, "ball", finishMesh(makeSphereMesh(2.0f, 64, 32)),
+              addMaterial(scene, makeRough(makeGlassMaterial("glass", 1.5f), 0.5f)));
+  PunctualLight lamp;
+  lamp.kind = shading::kLightPoint;
+  lamp.intensity = vec3(3.0f);
+  lamp.node = static_cast<int>(scene.nodes.size());
+  Node node;
+  node.translation = vec3(0.8f, 0.7f, 0.0f);
+  scene.nodes.push_back(node);
+  scene.lights.push_back(lamp);
+  expectAgreement(compareRenderers(snapshotOf(std::move(scene)), 1), 1e-6);
 }
 
 // Frame 17 of what waves, is bent by a skin of two joints and is morphed: both renderers get the same vertices.

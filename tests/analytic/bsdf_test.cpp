@@ -82,9 +82,9 @@ glm::vec3 valueOf(const LobeValues& v, Lobe lobe) { return lobe == Lobe::diffuse
 float densityOf(const LobeValues& v, Lobe lobe) { return lobe == Lobe::diffuse ? v.diffusePdf : v.specularPdf; }
 
 // The same from two sides: formulas of evaluate() at the direction against what sample() made on its way there. Half
-// vectors are rebuilt from directions, which loses digits where the density is high: alpha = 0.04 and refraction by an
+// vectors are rebuilt from directions, which loses digits where the density is high: narrow lobes and refraction by an
 // index near 1 lose most.
-TEST_P(Lobes, SamplesWeighTheirValueOverTheirDensity) {
+void expectPairs(const Bsdf& bsdf) {
   int checked = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
     Sampler sampler(1, 0, i);
@@ -98,6 +98,39 @@ TEST_P(Lobes, SamplesWeighTheirValueOverTheirDensity) {
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(weight[c], ray->weight[c], 1e-3f * ray->weight[c]);
   }
   EXPECT_GT(checked, 300);
+}
+
+TEST_P(Lobes, SamplesWeighTheirValueOverTheirDensity) { expectPairs(bsdf); }
+
+// Turned, so that cosines are not those of the axes: 1 - cos^2 alone would be rounding here.
+TEST(NarrowLobes, SamplesWeighTheirValueOverTheirDensity) {
+  const glm::vec3 normal = glm::normalize(glm::vec3(0.48f, -0.61f, 0.37f));
+  const shading::Frame frame = shading::makeFrame(normal);
+  for (const float roughness : {0.033f, 0.05f, 0.2f})
+    for (const float NoV : {0.97f, 0.5f, 0.15f}) {
+      shading::Surface surface = surfaceOf(makeMetal(roughness));
+      surface.normal = normal;
+      const glm::vec3 toViewer = shading::toWorld(frame, {std::sqrt(1.0f - NoV * NoV), 0.0f, NoV});
+      SCOPED_TRACE(testing::Message() << "roughness " << roughness << ", NoV " << NoV);
+      expectPairs(Bsdf(surface, toViewer, {}, DiffuseTransport::traced));
+    }
+}
+
+// Where mapped normals lean away from the viewer, rough lobes are those of a raised viewer; what is not there stays not
+// there.
+TEST(Veil, SeenFromBehindItsNormal_LetsLightStraightOn) {
+  const shading::Surface surface = surfaceOf(makeVeil(0.7f));
+  const glm::vec3 toViewer = glm::normalize(glm::vec3(0.9f, 0.1f, -0.3f));
+  const Bsdf bsdf(surface, toViewer, {}, DiffuseTransport::local);
+  int straight = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    Sampler sampler(4, 0, i);
+    const auto ray = bsdf.sample(sampler);
+    if (!ray || ray->lobe != Lobe::straight) continue;
+    ++straight;
+    EXPECT_EQ(ray->direction, -toViewer);
+  }
+  EXPECT_GT(straight, 20);
 }
 
 // Bins of equal solid angle over the sphere: cosine and azimuth.
