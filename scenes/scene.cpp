@@ -369,6 +369,23 @@ void addFramingCamera(Scene& scene) {
   scene.cameras.push_back(camera);
 }
 
+// In the order of the scene; which of them are left out, the brightness at the time decides.
+void warnOfTooManyAreaLights(Scene& scene) {
+  std::size_t triangles = 0;
+  std::string names;
+  for (const Instance& instance : scene.instances) {
+    const shading::MaterialConstants& m = scene.materials[static_cast<std::size_t>(instance.material)].constants;
+    if (m.kind.x == shading::kSurfaceUnlit || glm::vec3(m.emission) == glm::vec3(0.0f)) continue;
+    triangles += instance.mesh->triangleCount();
+    names += (names.empty() ? "'" : ", '") + instance.name + "'";
+  }
+  if (triangles <= kMaxAreaLights) return;
+  scene.warnings.push_back(
+      fmt::format("emissive meshes of {} triangles ({}): under local diffuse light only the brightest meshes with at "
+                  "most {} triangles together light others",
+                  triangles, names, kMaxAreaLights));
+}
+
 void finishScene(Scene& scene) {
   for (std::size_t n = 0; n < scene.nodes.size(); ++n)
     if (scene.nodes[n].parent >= static_cast<int>(n))
@@ -387,6 +404,7 @@ void finishScene(Scene& scene) {
       scene.durationSeconds = std::max(scene.durationSeconds, static_cast<double>(node.wave->periodSeconds));
   finishEnvironments(scene);
   warnAboutCollapsed(scene);
+  warnOfTooManyAreaLights(scene);
   if (scene.cameras.empty()) {
     addFramingCamera(scene);
     scene.notes.emplace_back("no camera in the scene: added one that frames it");

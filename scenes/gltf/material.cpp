@@ -22,6 +22,9 @@ using nlohmann::json;
 // Of glass and clear plastics it is 1.3 to 2, of diamond 2.4, and of germanium, the highest, 4 in the infrared.
 constexpr float kLargestIor = 5.0f;
 
+// 20 over the Abbe number, which is 17 for the most dispersive glasses: this is an Abbe number of 2.
+constexpr float kLargestDispersion = 10.0f;
+
 enum class Content { color, data };  // colours are sRGB in integer formats, data is linear
 
 // Members of a material's extension, with the defaults of the extension's specification.
@@ -247,7 +250,7 @@ class MaterialReader {
     const Extension volume(json_, "KHR_materials_volume");
     c.kind.z = volume.number("thicknessFactor", 0.0f);
     setAttenuation(material_, volume.color("attenuationColor", glm::vec3(1.0f)), attenuationDistance(volume));
-    c.kind.w = Extension(json_, "KHR_materials_dispersion").number("dispersion", 0.0f);
+    c.kind.w = dispersion(Extension(json_, "KHR_materials_dispersion").number("dispersion", 0.0f));
   }
 
   float checkedIor(float ior) {
@@ -260,6 +263,12 @@ class MaterialReader {
       return kLargestIor;
     }
     return ior;
+  }
+
+  float dispersion(float value) {
+    if (value <= kLargestDispersion) return value;
+    warn(fmt::format("no material has a dispersion of {}, {} is used", value, kLargestDispersion));
+    return kLargestDispersion;
   }
 
   // Some exporters write 0 for no attenuation.
