@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <system_error>
 
 #include "bench/sections.h"
@@ -308,12 +309,27 @@ std::string framesText(const Section& section) {
   return fmt::format("{} {}", frames.size() > 1 ? "frames" : "frame", fmt::join(frames, " "));
 }
 
-std::string sectionText(const Section& section) {
+// "axis=value" of the program's own axes that stand at one value in the whole run.
+std::vector<std::string> sharedAxes(const std::vector<Section>& sections) {
+  std::optional<std::vector<std::string>> shared;
+  for (const Section& section : sections) {
+    if (section.sequences.empty()) continue;
+    if (!shared) shared = section.fixed;
+    std::erase_if(*shared, [&](const std::string& axis) {
+      return std::ranges::find(section.fixed, axis) == section.fixed.end();
+    });
+  }
+  return shared.value_or(std::vector<std::string>{});
+}
+
+std::string sectionText(const Section& section, const std::vector<std::string>& shared) {
   const bool hasOwn = !section.sequences.empty();
   const CellResult& first = *(hasOwn ? section.sequences : section.externals).front().front();
   std::string text = fmt::format("## {}{}\n\n{}", first.scene, first.camera.empty() ? "" : ", camera " + first.camera,
                                  framesText(section));
-  if (!section.fixed.empty()) text += fmt::format("; {}", fmt::join(section.fixed, ", "));
+  std::vector<std::string> fixed = section.fixed;
+  std::erase_if(fixed, [&](const std::string& axis) { return std::ranges::find(shared, axis) != shared.end(); });
+  if (!fixed.empty()) text += fmt::format("; {}", fmt::join(fixed, ", "));
   text += "\n\n";
   if (!hasOwn) return text + externalText(section);
   text += questionsText(section);
@@ -363,7 +379,9 @@ std::string makeReport(const Results& results) {
   std::string text = fmt::format("# {}: error and cost of reflection probes\n\n{} cells, control {}.\n\n",
                                  results.provenance.suiteName, results.cells.size(), results.provenance.controlOutcome);
   text += kLegend;
-  for (const Section& section : sections) text += sectionText(section);
+  const std::vector<std::string> shared = sharedAxes(sections);
+  if (!shared.empty()) text += fmt::format("Fixed in the whole run: {}.\n\n", fmt::join(shared, ", "));
+  for (const Section& section : sections) text += sectionText(section, shared);
   return text + circumstances(results.provenance);
 }
 

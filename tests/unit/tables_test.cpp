@@ -103,7 +103,7 @@ TEST(Sections, ErrorIsClearOfTheFloorFromTenTimesOn) {
 
 TEST(Report, ShowsOneTableAQuestion) {
   const std::string report = makeReport(samples::makeResults());
-  EXPECT_THAT(report, HasSubstr("## builtin:a, camera main\n\nframes 0 1; bounces=1\n"));
+  EXPECT_THAT(report, HasSubstr("\n\nFixed in the whole run: bounces=1.\n\n## builtin:a, camera main\n\nframes 0 1\n"));
   // Frames have errors 8 e and 8 * 0.9 e with e = 0.1 * 0.81^row: mean 7.6 e, worst 8 e.
   EXPECT_THAT(report, HasSubstr("### Error versus resolution\n\n"
                                 "FLIP-HDR on the mask, mean over the frames (worst frame)\n\n"
@@ -143,6 +143,12 @@ TEST(Report, ShowsTheTimesOfPasses) {
               HasSubstr("| shadow ms | capture ms by bounce | prefilter ms | final ms |\n"));
   EXPECT_THAT(makeReport(samples::makeResults()),
               HasSubstr("|    0.0625 |        0.500 + 0.250 |        0.125 |     3.50 |\n"));
+}
+
+TEST(Report, SaysOnceWhatIsFixedInTheWholeRun) {
+  const std::string report = makeReport(samples::makeResults());
+  EXPECT_EQ(report.find("bounces=1"), report.rfind("bounces=1"));
+  EXPECT_THAT(report, HasSubstr("## builtin:b, camera main\n\nframe 0; resolution=64, refresh=every-frame\n"));
 }
 
 TEST(Report, MarksErrorsThatAreNotClearOfTheFloor) {
