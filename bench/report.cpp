@@ -193,17 +193,29 @@ std::string externalText(const Section& section) {
          toMarkdown(times) + '\n';
 }
 
+// Most scenes have no coats without a probe of their own.
+bool hasCoats(const Section& section) {
+  return std::ranges::any_of(section.sequences, [](const Sequence& sequence) {
+    return meanCounter(sequence, "coats_from_probe") > 0 || meanCounter(sequence, "coats_from_environment") > 0;
+  });
+}
+
 Table workTable(const Section& section) {
   const auto counter = [](const char* title, const char* name) {
     return Quantity{{title}, [=](const Sequence& sequence) { return counterText(sequence, name); }};
   };
-  return tableOfAll(section,
-                    {{{"probe MiB"}, [](const Sequence& sequence) { return mebibytesText(sequence, "probe_bytes"); }},
-                     counter("faces captured", "faces_captured"),
-                     counter("draws", "draws"),
-                     counter("triangles", "triangles"),
-                     counter("fragments", "fragments"),
-                     counter("texels filtered", "texels_filtered")});
+  std::vector<Quantity> quantities = {
+      {{"probe MiB"}, [](const Sequence& sequence) { return mebibytesText(sequence, "probe_bytes"); }},
+      counter("faces captured", "faces_captured"),
+      counter("draws", "draws"),
+      counter("triangles", "triangles"),
+      counter("fragments", "fragments"),
+      counter("texels filtered", "texels_filtered")};
+  if (hasCoats(section)) {
+    quantities.push_back(counter("coats from a probe", "coats_from_probe"));
+    quantities.push_back(counter("from the environment", "coats_from_environment"));
+  }
+  return tableOfAll(section, quantities);
 }
 
 // --- Tables of one question: rows are one axis, columns another, the rest is fixed

@@ -68,11 +68,16 @@ struct Region {
 };
 
 constexpr Region kRegions[] = {
-    {"metrics", "whole", ""},     {"mask_metrics", "mask", ""},
-    {"floor", "floor", ""},       {"mask_floor", "mask_floor", ""},
-    {"unbiased", "unbiased", ""}, {"cost", "cost", ""},
+    {"metrics", "whole", ""},
+    {"mask_metrics", "mask", ""},
+    {"floor", "floor", ""},
+    {"mask_floor", "mask_floor", ""},
+    {"unbiased", "unbiased", ""},
+    {"cost", "cost", ""},
     {"reported_cost", "reported_cost", ""},
-    {"counters", "counter", ""},  {"face_age_frames", "probe", "face_age_frames"},
+    {"counters", "counter", ""},
+    {"face_age_frames", "probe", "face_age_frames"},
+    {"coats_of_probes", "probe", "coats"},
 };
 
 void appendCell(const CellResult& cell, const std::vector<std::string>& axes, std::string& csv) {

@@ -82,12 +82,14 @@ struct CellResult {
   std::optional<Metrics> maskMetrics;  // over the pixels of reflective and refractive objects, if there are any
   // What the reference's own noise adds to "mse" and "relmse" (and to other metrics whose floor is known).
   MetricValues floor, maskFloor;
-  MetricValues unbiased;           // "mse": mean((I-A)(I-B)), whole image
-  std::optional<CostResult> cost;  // of the technique on this scene; the same for all its frames
+  MetricValues unbiased;                     // "mse": mean((I-A)(I-B)), whole image
+  std::optional<CostResult> cost;            // of the technique on this scene; the same for all its frames
   std::optional<ReportedCost> reportedCost;  // of external techniques only, which have no `cost`
-  // FrameCounters of this frame: "faces_captured", "draws", "triangles", "fragments", "probe_bytes", "texels_filtered".
+  // FrameCounters of this frame: "faces_captured", "draws", "triangles", "fragments", "probe_bytes", "texels_filtered";
+  // what serves the coats of instances without a probe of their own: "coats_from_probe", "coats_from_environment".
   std::vector<std::pair<std::string, std::int64_t>> counters;
   std::vector<double> faceAgeFrames;  // mean age of the faces of each probe
+  std::vector<int> coatsOfProbes;     // by probe: instances whose coat it serves, without one of their own
   std::vector<MaterialError> materials;
 
   // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in a run and in --only.

@@ -173,6 +173,8 @@ CellResult cellFromJson(const Json& json) {
   cell.counters = countersFromJson(json.at("counters"));
   cell.faceAgeFrames = json.at("face_age_frames").get<std::vector<double>>();
   // Files from before they were recorded don't have them.
+  if (const auto coats = json.find("coats_of_probes"); coats != json.end())
+    cell.coatsOfProbes = coats->get<std::vector<int>>();
   if (const auto materials = json.find("materials"); materials != json.end())
     cell.materials = materialsFromJson(*materials);
   return cell;
@@ -249,6 +251,7 @@ Json cellToJson(const CellResult& cell) {
   if (cell.reportedCost) json["reported_cost"] = reportedCostToJson(*cell.reportedCost);
   json["counters"] = countersToJson(cell.counters);
   json["face_age_frames"] = cell.faceAgeFrames;
+  json["coats_of_probes"] = cell.coatsOfProbes;
   json["materials"] = materialsToJson(cell.materials);
   return json;
 }

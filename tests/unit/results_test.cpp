@@ -57,6 +57,7 @@ TEST(Results, JsonRoundTrip_KeepsEveryMember) {
   EXPECT_EQ(a.unbiased, b.unbiased);
   EXPECT_EQ(a.counters, b.counters);
   EXPECT_EQ(a.faceAgeFrames, b.faceAgeFrames);
+  EXPECT_EQ(a.coatsOfProbes, b.coatsOfProbes);
   EXPECT_EQ(a.cost->ratioHigh, b.cost->ratioHigh);
   EXPECT_EQ(a.cost->captureMs, b.cost->captureMs);
   EXPECT_EQ(a.cost->shadowMs, b.cost->shadowMs);
@@ -83,6 +84,12 @@ TEST(Results, FromBeforeTimesOfShadowsAndFilters_AreRead) {
   const CostResult cost = *resultsFromJson(document.dump(), "memory").cells[0].cost;
   EXPECT_EQ(cost.shadowMs, 0.0);
   EXPECT_EQ(cost.prefilterMs, 0.0);
+}
+
+TEST(Results, FromBeforeCoatsWereCounted_AreRead) {
+  Json document = Json::parse(toJson(samples::makeResults()));
+  for (Json& cell : document["cells"]) cell.erase("coats_of_probes");
+  EXPECT_TRUE(resultsFromJson(document.dump(), "memory").cells[0].coatsOfProbes.empty());
 }
 
 TEST(Results, ExtremeDoubles_RoundTripExactly) {
@@ -260,6 +267,7 @@ TEST(Csv, HasOneRowPerCellAndValue) {
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,cost,shadow_ms,0.0625\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,counter,triangles,123456\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,face_age_frames.1,2.5\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,coats.0,3\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:b,main,0,64,every-frame,1,whole,psnr,inf\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:b,main,0,64,every-frame,1,whole,ssim,\n"));
   EXPECT_THAT(csv, Not(HasSubstr("builtin:b,main,0,64,every-frame,1,mask")));

@@ -57,6 +57,7 @@ inline CellResult makeCell(const std::string& scene, int frame, const std::strin
   cell.unbiased = {{"mse", error * error}};
   cell.counters = {{"faces_captured", 12}, {"draws", 40}, {"triangles", 123456}, {"probe_bytes", 2 * 1024 * 1024}};
   cell.faceAgeFrames = {0.0, 2.5};
+  cell.coatsOfProbes = {3, 0};
   return cell;
 }
 

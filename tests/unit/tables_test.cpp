@@ -151,6 +151,17 @@ TEST(Report, SaysOnceWhatIsFixedInTheWholeRun) {
   EXPECT_THAT(report, HasSubstr("## builtin:b, camera main\n\nframe 0; resolution=64, refresh=every-frame\n"));
 }
 
+TEST(Report, SaysWhatServesCoatsWhereThereAreAny) {
+  Results results = samples::makeResults();
+  EXPECT_THAT(makeReport(results), Not(HasSubstr("coats from a probe")));
+  for (CellResult& cell : results.cells) {
+    cell.counters.emplace_back("coats_from_probe", 3);
+    cell.counters.emplace_back("coats_from_environment", 0);
+  }
+  EXPECT_THAT(makeReport(results), HasSubstr("| coats from a probe | from the environment |\n"));
+  EXPECT_THAT(makeReport(results), HasSubstr("|                  3 |                    0 |\n"));
+}
+
 TEST(Report, MarksErrorsThatAreNotClearOfTheFloor) {
   Results results = samples::makeResults();
   EXPECT_THAT(makeReport(results), Not(HasSubstr(" ~ ")));
