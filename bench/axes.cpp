@@ -4,6 +4,7 @@
 #include <bit>
 #include <optional>
 
+#include "bench/presets.h"
 #include "raster/lookup.h"
 #include "raster/probe_layout.h"
 #include "raster/refresh.h"
@@ -112,6 +113,20 @@ bool parseSharing(std::string_view text, Technique& technique) {
   return true;
 }
 
+// A whole technique: takes the place of all that was set before.
+bool parsePreset(std::string_view text, Technique& technique) {
+  const Technique* preset = presetTechnique(text);
+  if (text != "none" && preset == nullptr) return false;
+  technique = preset == nullptr ? Technique() : *preset;
+  return true;
+}
+
+std::string presetNames() {
+  std::string names = "none";
+  for (const Preset& preset : presets()) names += " | " + preset.name;
+  return names;
+}
+
 // Refuses unknown laws and parameters with the law's own message.
 bool parseFresnel(std::string_view text, Technique& technique) {
   const Spec spec = parseSpec(text);
@@ -155,6 +170,8 @@ std::vector<std::string> axisNames() {
 
 std::vector<Axis> makeAxisTable() {
   return {
+      {"preset", presetNames(), "a whole technique: sets every axis, those named with it come after",
+       "see `probebench axes info preset`", parsePreset, [](const Technique& t) { return t.preset; }},
       {"resolution", fmt::format("powers of two from {} to {}", kMinResolution, kMaxResolution),
        "texels along the edge of a cube map's face", "GTA V captures at 128",
        [](std::string_view text, Technique& t) { return parseResolution(text, t.resolution); },

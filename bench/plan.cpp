@@ -29,6 +29,20 @@ std::vector<Technique> expandGrid(const Suite& suite) {
   return techniques;
 }
 
+// The grid's techniques, and on top of each of them every value that the scene varies, one at a time. What varies to
+// what it was is left out.
+std::vector<Technique> techniquesOf(const SuiteScene& scene, const std::vector<Technique>& grid) {
+  std::vector<Technique> techniques = grid;
+  for (const auto& [axis, values] : scene.vary)
+    for (const std::string& value : values)
+      for (const Technique& base : grid) {
+        Technique varied = base;
+        setAxis(varied, axis, value);
+        if (std::ranges::find(techniques, varied) == techniques.end()) techniques.push_back(std::move(varied));
+      }
+  return techniques;
+}
+
 std::regex compile(const std::string& expression) {
   try {
     return std::regex(expression);
@@ -85,10 +99,10 @@ Shard parseShard(std::string_view text) {
 }
 
 Plan makePlan(const Suite& suite, const PlanFilter& filter) {
-  const std::vector<Technique> techniques = expandGrid(suite);
+  const std::vector<Technique> grid = expandGrid(suite);
   Plan plan;
   for (std::size_t scene = 0; scene < suite.scenes.size(); ++scene) {
-    for (const Technique& technique : techniques)
+    for (const Technique& technique : techniquesOf(suite.scenes[scene], grid))
       plan.sequences.push_back({scene, technique, suite.scenes[scene].frames});
     for (std::size_t external = 0; external < suite.externals.size(); ++external)
       plan.sequences.push_back({scene, suite.technique, suite.scenes[scene].frames, external});

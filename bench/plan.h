@@ -22,7 +22,7 @@ struct PlannedSequence {
 
 struct Plan {
   // By scene, then in grid order, the last axis fastest; the external techniques last.
-  std::vector<PlannedSequence> sequences;
+  std::vector<PlannedSequence> sequences;  // by scene: grid order, the last axis fastest, what varies, what is external
 
   std::size_t cellCount() const;
   std::vector<int> framesOf(std::size_t scene) const;  // measured in any of its sequences, increasing

@@ -238,11 +238,23 @@ class Runner {
     if (sequence.external)
       name += fmt::format("-{}={}", kExternalAxis, c_.suite.externals[*sequence.external].name);
     else
-      for (const auto& [axis, values] : c_.suite.grid)
-        name += fmt::format("-{}={}", axis, fileName(axisNamed(axis).print(sequence.technique)));
+      name += techniqueName(sequence);
     const std::string path = (c_.directory.imagesFolder() / name).string();
     writeExr(path + ".exr", image);
     writePngEncoded(path + "-flip.png", magma(flipMap));
+  }
+
+  // The grid's axes, and the one that the scene varies.
+  std::string techniqueName(const PlannedSequence& sequence) const {
+    std::string name;
+    const auto append = [&](const Axis& axis) {
+      name += fmt::format("-{}={}", axis.name, fileName(axis.print(sequence.technique)));
+    };
+    for (const auto& [axis, values] : c_.suite.grid) append(axisNamed(axis));
+    for (const auto& [name_, values] : suiteScene(sequence.scene).vary)
+      if (const Axis& axis = axisNamed(name_); axis.print(sequence.technique) != axis.print(c_.suite.technique))
+        append(axis);
+    return name;
   }
 
   // The scene's number keeps scenes of one name apart.

@@ -112,12 +112,13 @@ GridAxis readGridAxis(const std::string& name, const toml::node& node, const std
   return axis;
 }
 
-std::vector<GridAxis> readGrid(TomlReader& suite) {
+// The axes of a table and their values.
+std::vector<GridAxis> readAxes(TomlReader& owner, std::string_view key) {
   std::vector<GridAxis> grid;
-  std::optional<TomlReader> reader = suite.child("grid");
+  std::optional<TomlReader> reader = owner.child(key);
   if (!reader) return grid;
   for (const Axis& axis : axisTable())
-    if (const toml::node* node = reader->find(axis.name)) grid.push_back(readGridAxis(axis.name, *node, suite.file()));
+    if (const toml::node* node = reader->find(axis.name)) grid.push_back(readGridAxis(axis.name, *node, owner.file()));
   reader->finish();
   return grid;
 }
@@ -219,6 +220,7 @@ SuiteScene readScene(const toml::table& table, const std::string& file, const st
   if (const toml::node* frames = reader.find("frames")) scene.frames = readFrames(*frames, file);
   if (const auto warmup = reader.integer("warmup", 0, 1000)) scene.warmup = static_cast<int>(*warmup);
   scene.camera = reader.text("camera").value_or("");
+  scene.vary = readAxes(reader, "vary");
   scene.exposure = reader.number("exposure", -kMaxStops, kMaxStops).value_or(0);
   reader.finish();
   return scene;
@@ -327,7 +329,7 @@ Suite parseSuite(const std::string& toml, const std::string& place, const std::s
   suite.cost = readCost(reader);
   suite.technique = readTechnique(reader);
   suite.scenes = readScenes(reader, folder);
-  suite.grid = readGrid(reader);
+  suite.grid = readAxes(reader, "grid");
   suite.externals = readExternalTechniques(reader, folder);
   suite.tolerance = readTolerances(reader);
   reader.finish();
@@ -374,6 +376,9 @@ std::string canonicalText(const Suite& suite) {
   for (const SuiteScene& scene : suite.scenes)
     text += fmt::format("scene {} camera '{}' exposure {} frames {}\n", scene.name, scene.camera, scene.exposure,
                         framesText(scene));
+  for (const SuiteScene& scene : suite.scenes)
+    for (const auto& [axis, values] : scene.vary)
+      text += fmt::format("vary {} {} = {}\n", scene.name, axis, fmt::join(values, ","));
   for (const auto& [axis, values] : suite.grid) text += fmt::format("grid {} = {}\n", axis, fmt::join(values, ","));
   for (const ExternalTechnique& external : suite.externals) text += fmt::format("external {}\n", external.canonical);
   return text;

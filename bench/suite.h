@@ -14,6 +14,8 @@
 
 namespace pb {
 
+using GridAxis = std::pair<std::string, std::vector<std::string>>;  // axis and its values, canonical
+
 struct SuiteScene {
   std::string name;               // as the suite or the command line spells it; stands in results
   std::string reference;          // what loadScene() gets: environment added, paths relative to the suite made absolute
@@ -21,6 +23,7 @@ struct SuiteScene {
   std::optional<int> warmup;      // frames rendered before the first measured one; none: from frame 0 on
   std::string camera;             // empty: the scene's first
   double exposure = 0;            // stops, for LDR-FLIP, PSNR and SSIM
+  std::vector<GridAxis> vary;     // beside the grid: each of these values for itself, on top of each of its techniques
 
   // The frame at which a sequence starts; frames before 0 show frame 0.
   int startFrame() const { return warmup ? frames.front() - *warmup : 0; }
@@ -49,8 +52,6 @@ struct TruthSettings {
 struct CostSettings {
   int repetitions = 10;  // 0: no cost is measured
 };
-
-using GridAxis = std::pair<std::string, std::vector<std::string>>;  // axis and its values, canonical
 
 struct Suite {
   std::string name;

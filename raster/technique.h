@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <string>
 
 #include "scenes/spec.h"
 
@@ -28,6 +29,7 @@ enum class ProbeUse {
 };  // environmentOnly: no captures, reflections show the environment (a plain frame)
 
 struct Technique {
+  std::string preset = "none";                  // what this began with, a name of bench/presets.h; no renderer reads it
   int resolution = 256;                         // texels along a cube face's edge
   Spec refresh{"every-frame", {}};              // see raster/refresh.h
   int bounces = 1;                              // bounce iterations a frame, B

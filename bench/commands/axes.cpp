@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "bench/commands/commands.h"
+#include "bench/presets.h"
 #include "raster/refresh.h"
 
 namespace pb {
@@ -21,6 +22,25 @@ int listAxes() {
   return 0;
 }
 
+void printValue(const std::string& name, const std::string& parameters, const std::string& description,
+                const std::string& source) {
+  fmt::print("\n{}", printList({{"value", name},
+                                {"parameters", parameters.empty() ? "none" : parameters},
+                                {"meaning", description},
+                                {"source", source}}));
+}
+
+void printPresets() {
+  for (const Preset& preset : presets()) {
+    std::string settings;
+    for (const auto& [axis, value] : preset.settings) settings += (settings.empty() ? "" : " ") + axis + "=" + value;
+    fmt::print("\n{}", printList({{"value", preset.name},
+                                  {"settings", settings},
+                                  {"meaning", preset.description},
+                                  {"source", preset.source}}));
+  }
+}
+
 int printAxis(const std::string& name) {
   const Axis& axis = axisNamed(name);
   fmt::print("{}", printList({{"axis", axis.name},
@@ -28,12 +48,9 @@ int printAxis(const std::string& name) {
                               {"default", defaultOf(axis)},
                               {"meaning", axis.description},
                               {"source", axis.source}}));
-  if (axis.name != "refresh") return 0;
-  for (const RefreshPolicy& policy : refreshPolicies())
-    fmt::print("\n{}", printList({{"value", policy.name},
-                                  {"parameters", policy.parameters.empty() ? "none" : policy.parameters},
-                                  {"meaning", policy.description},
-                                  {"source", policy.source}}));
+  if (axis.name == "preset") printPresets();
+  if (axis.name == "refresh")
+    for (const RefreshPolicy& p : refreshPolicies()) printValue(p.name, p.parameters, p.description, p.source);
   return 0;
 }
 
