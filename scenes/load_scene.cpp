@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include "scenes/environment.h"
 #include "scenes/error.h"
 #include "scenes/gltf_load.h"
+#include "scenes/obj_load.h"
 #include "scenes/scene.h"
 #include "scenes/spec.h"
 
@@ -79,13 +81,19 @@ void checkFileIsMeant(const std::string& path, const std::string& reference) {
     throwInputError("scene '{}': there is no such file; did you mean '{}{}'?", reference, kBuiltinPrefix, reference);
 }
 
+bool isObj(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ".obj";
+}
+
 Scene loadFile(Spec spec, const std::string& reference, const std::optional<Environment>& environment) {
   checkFileIsMeant(spec.name, reference);
   const std::optional<std::string> mirror = takeParameter(spec, "mirror");
   const std::vector<std::string> known = {"mirror", "environment", "shadows", "fps", "time_step"};
   if (!spec.parameters.empty())
     throwInputError("scene '{}': parameter {}", reference, unknownMessage(spec.parameters.front().first, known));
-  Scene scene = loadGltf(spec.name, environment);
+  Scene scene = isObj(spec.name) ? loadObj(spec.name, environment) : loadGltf(spec.name, environment);
   if (mirror) makeMirrors(scene, *mirror, reference);
   return scene;
 }
