@@ -2,6 +2,7 @@
 // wrinkled surfaces, through which a ray goes straight on, meets a focus, or comes out anywhere.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -48,6 +49,16 @@ BustSection bustSection(double along) {
   const double foot = std::pow(std::clamp(y / 0.06, 0.0, 1.0), 0.3);
   const double trunk = y < 1.0 ? shoulders : neck * (1.0 - step(1.0, 1.15, y));
   return {y, foot * std::max(trunk, 0.245 * head), foot * std::max(0.62 * trunk, 0.30 * head)};
+}
+
+// Without seam, so that it is closed to the last bit.
+Mesh makeBall(double radius) {
+  Mesh mesh = makeClosedBody(32, 64, [&](double along, double around) {
+    const double theta = glm::pi<double>() * along, phi = glm::two_pi<double>() * around;
+    return radius * glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+  });
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) mesh.normals[i] = glm::normalize(mesh.positions[i]);
+  return mesh;
 }
 
 // Looks along +Z.
@@ -111,7 +122,7 @@ Scene makeGlassShapesScene(SpecReader& /*parameters*/) {
   addShape(scene, "Cube", makeBoxMesh(glm::vec3(0.95f)), addGlass(scene, kCrown, 0.95f), {-1.55f, kGap + 0.475f, 0.1f},
            28.0f);
   addShape(scene, "Bust", makeClosedBody(72, 80, bustPoint), addGlass(scene, kFlint, 0.5f), {0.0f, kGap, 0.0f}, 22.0f);
-  addShape(scene, "Ball", makeSphereMesh(0.6f, 64, 32), addGlass(scene, kFlint, 1.2f), {1.5f, kGap + 0.6f, 0.2f}, 0.0f);
+  addShape(scene, "Ball", makeBall(0.6), addGlass(scene, kFlint, 1.2f), {1.5f, kGap + 0.6f, 0.2f}, 0.0f);
   addCamera(scene, "Camera", {0.0f, 1.15f, 4.6f}, {0.0f, 0.72f, 0.0f}, glm::radians(32.0f), 0.1f);
   addDirectionalLight(scene, "Sun", {0.4f, 0.8f, 0.6f}, glm::vec3(2.2f, 2.1f, 1.9f));
   scene.environment = makeProceduralSky();

@@ -185,7 +185,9 @@ Scene makeOddScene() {
   scene.castsShadows = true;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
     scene.instances[i].material = static_cast<int>(i % scene.materials.size());
-  scene.nodes[0].probe = ProbeSettings{.enabled = false, .position = glm::vec3(1, 2, 3)};
+  scene.nodes[0].probe =
+      ProbeSettings{.enabled = false, .position = glm::vec3(1, 2, 3), .box = Bounds{{-1, 0, 1}, {2, 3, 4}}};
+  scene.room = Bounds{{-10, 0, -10}, {10, 5, 10}};
   scene.cameras.push_back(scene.cameras[0]);
   scene.cameras.back().name = "second";
   scene.lights.push_back(scene.lights[0]);
@@ -226,6 +228,9 @@ TEST(SaveGlb, OfProbesAndSeveralCamerasAtANode_LoadsThemBack) {
   ASSERT_TRUE(loaded->nodes.at(0).probe.has_value());
   EXPECT_FALSE(loaded->nodes[0].probe->enabled);
   EXPECT_EQ(loaded->nodes[0].probe->position, glm::vec3(1, 2, 3));
+  ASSERT_TRUE(loaded->nodes[0].probe->box && loaded->room);
+  EXPECT_TRUE(sameBytes(*loaded->nodes[0].probe->box, *scene.nodes[0].probe->box));
+  EXPECT_TRUE(sameBytes(*loaded->room, *scene.room));
   EXPECT_EQ(loaded->cameras.size(), scene.cameras.size());
   EXPECT_EQ(loaded->lights.size(), scene.lights.size());
 }
@@ -308,6 +313,7 @@ TEST(SceneExtras, BySchemaAndLoader_AreJudgedAlike) {
   const char* const accepted[] = {
       R"({"schema": 1})",
       R"({"schema": 1, "environment": {"constant": 0.5}, "shadows": "traced"})",
+      R"({"schema": 1, "room": {"lower": [-1, 0, -1], "upper": [1, 2, 1]}})",
       R"({"schema": 1, "environment": {"sky": {"horizon": 1, "zenith": [0, 0, 1], "below": 0}}})",
       R"({"schema": 1, "environmentChanges": [{"fromSeconds": 2, "environment": {"constant": 0.5}}]})",
       R"({"schema": 1, "screens": [{"program": "rings"}, {"program": "melt", "size": [8, 8], "phase": -0.5}]})",
@@ -325,6 +331,8 @@ TEST(SceneExtras, BySchemaAndLoader_AreJudgedAlike) {
       R"({"schema": 1, "screens": [{"program": "snow"}]})",
       R"({"schema": 1, "screens": [{"program": "melt", "size": [0, 8]}]})",
       R"({"schema": 1, "probeNear": 0})",
+      R"({"schema": 1, "room": {"lower": [-1, 0, -1]}})",
+      R"({"schema": 1, "room": {"lower": [-1, 0], "upper": [1, 2]}})",
   };
   const auto loadWith = [](const char* extras) {
     GltfFile file;

@@ -216,6 +216,34 @@ TEST(Snapshot, ProbeSettingsOfTheNode_AreObeyed) {
   EXPECT_TRUE(makeSnapshot(sceneWith({}, makeDiffuseMaterial("m", glm::vec3(1))), 0, "", 1.0)->probes.empty());
 }
 
+TEST(Snapshot, ProxyBoxOfAProbe_IsItsNodesBoxOrElseTheRoom) {
+  Node boxed;
+  boxed.probe.emplace().box = Bounds{{-1, -2, -3}, {1, 2, 3}};
+  const auto proxyBox = [](const Node& node, std::optional<Bounds> room) {
+    Scene scene = *sceneWith(node, makeMirrorMaterial("m"));
+    scene.room = room;
+    return makeSnapshot(std::make_shared<const Scene>(std::move(scene)), 0, "", 1.0)->probes.at(0).proxyBox;
+  };
+  const Bounds room = {{-9, -9, -9}, {9, 9, 9}};
+  EXPECT_EQ(proxyBox(boxed, room)->upper, glm::vec3(1, 2, 3));
+  EXPECT_EQ(proxyBox({}, room)->upper, glm::vec3(9, 9, 9));
+  EXPECT_FALSE(proxyBox({}, std::nullopt).has_value());
+}
+
+// Lookups read it, so that pictures of the rasteriser change; references don't.
+TEST(Snapshot, ProxyBoxes_AreInTheContentHashButNotInTheReferences) {
+  Scene scene = makeBuiltinScene({"mirrors", {{"count", "2"}}});
+  const auto hashes = [&] {
+    const auto snapshot = makeSnapshot(std::make_shared<const Scene>(scene), 0, "", 1.0);
+    return std::pair(contentHash(*snapshot), referenceHash(*snapshot));
+  };
+  const auto without = hashes();
+  scene.room = Bounds{{-9, -9, -9}, {9, 9, 9}};
+  const auto with = hashes();
+  EXPECT_NE(with.first, without.first);
+  EXPECT_EQ(with.second, without.second);
+}
+
 TEST(Snapshot, FramesOfAnAnimation_MoveAndLoop) {
   const auto scene = std::make_shared<const Scene>(makeBuiltinScene({"teapot", {}}));
   const auto hashAt = [&](int frame) { return contentHash(*makeSnapshot(scene, frame, "", 1.5)); };
@@ -344,7 +372,8 @@ TEST(BuiltinScenes, GlassIsClosedAndWoundOutwards) {
       ++meshes;
     }
   }
-  EXPECT_EQ(meshes, 8);  // four balls of `glass`, four bodies of `dispersion`
+  // Four balls of `glass`, four bodies of `dispersion`, three of `glass-shapes`, the windows of `street`.
+  EXPECT_EQ(meshes, 12);
 }
 
 TEST(BuiltinScenes, MetalsAreRoughRows_EachSphereWithItsProbe) {
@@ -444,6 +473,50 @@ TEST(BuiltinScenes, ExportedAndLoadedAgain_GiveTheSamePictures) {
       EXPECT_EQ(contentHash(*makeSnapshot(scene, frame, "", 1.5)), contentHash(*makeSnapshot(loaded, frame, "", 1.5)))
           << builtin.name << ", frame " << frame;
   }
+}
+
+// Where the model's origin, the centre of its box and its probe stand is what placements of probes differ in.
+TEST(BuiltinScenes, TeapotHasItsOriginAtItsFoot) {
+  const Scene scene = makeBuiltinScene({"teapot", {}});
+  const Bounds& bounds = scene.instances.at(5).mesh->bounds;
+  ASSERT_EQ(scene.instances[5].name, "Mirror teapot");
+  EXPECT_NEAR(bounds.lower.y, 0.0f, 1e-6f);
+  EXPECT_GT(bounds.centre().y, 0.7f);
+  EXPECT_GT(std::abs(bounds.centre().x), 0.05f);  // the spout reaches farther than the handle
+}
+
+TEST(BuiltinScenes, InRooms_StateThem) {
+  for (const char* name : {"mirror-cube", "planar-floor", "hall-of-mirrors"}) {
+    const auto scene = std::make_shared<const Scene>(makeBuiltinScene({name, {}}));
+    Bounds all;
+    for (const SnapshotInstance& instance : makeSnapshot(scene, 0, "", 1.0)->instances)
+      all.include(instance.worldBounds);
+    ASSERT_TRUE(scene->room.has_value()) << name;
+    EXPECT_EQ(scene->room->lower, all.lower) << name;
+    EXPECT_EQ(scene->room->upper, all.upper) << name;
+  }
+}
+
+// A camera that drives with the car sees the same street again when the animation loops.
+TEST(BuiltinScenes, StreetRepeatsAfterOneLoop) {
+  const Scene scene = makeBuiltinScene({"street", {}});
+  const Track& track = scene.tracks.at(0);
+  const float period = track.values.back().x - track.values.front().x;
+  const auto houseAt = [&](float x) -> const Instance* {
+    for (const Instance& instance : scene.instances) {
+      const glm::vec3& position = scene.nodes[static_cast<std::size_t>(instance.node)].translation;
+      if (instance.name.starts_with("House_north") && position.x == x) return &instance;
+    }
+    return nullptr;
+  };
+  int pairs = 0;
+  for (float x = -45.0f; x + period <= 45.0f; x += 6.0f, ++pairs) {
+    const Instance *a = houseAt(x), *b = houseAt(x + period);
+    ASSERT_TRUE(a != nullptr && b != nullptr) << x;
+    EXPECT_EQ(a->mesh, b->mesh);
+    EXPECT_EQ(a->material, b->material);
+  }
+  EXPECT_EQ(pairs, 12);
 }
 
 TEST(BuiltinScenes, PeerScenesHaveTheirTriangles) {
