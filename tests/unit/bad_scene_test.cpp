@@ -96,7 +96,7 @@ TEST(WorldTransform, ThatGrowsBeyondTheBound_IsRefusedAtThatFrame) {
   scene->nodes[1].parent = 0;
   for (const int node : {0, 1})
     scene->tracks.push_back(
-        {node, TrackTarget::scale, Interpolation::linear, {0.0f, 2.0f}, {glm::vec4(1.0f), glm::vec4(1e8f)}});
+        {node, TrackTarget::scale, Interpolation::linear, {0.0f, 2.0f}, {glm::vec4(1.0f), glm::vec4(1e8f)}, {}});
   finishScene(*scene);
   EXPECT_NE(makeSnapshot(scene, 0, "", 1.0), nullptr);
   EXPECT_THAT(refusalOf([&] { makeSnapshot(scene, 30, "", 1.0); }),
