@@ -215,8 +215,9 @@ SuiteScene readScene(const toml::table& table, const std::string& file, const st
   scene.name = reader.text("use").value();
   const SceneOptions options = readSceneOptions(reader);
   scene.reference = atPlace(file, use, [&] { return sceneReference(scene.name, options, folder); });
-  for (const auto& [option, value] : options)
-    scene.name += fmt::format("{}{}={}", scene.name.find('?') == std::string::npos ? '?' : '&', option, value);
+  Spec named = parseSpec(scene.name);
+  named.parameters.insert(named.parameters.end(), options.begin(), options.end());
+  scene.name = printSpec(named);
   if (const toml::node* frames = reader.find("frames")) scene.frames = readFrames(*frames, file);
   if (const auto warmup = reader.integer("warmup", 0, 1000)) scene.warmup = static_cast<int>(*warmup);
   scene.camera = reader.text("camera").value_or("");

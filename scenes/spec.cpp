@@ -35,6 +35,32 @@ std::string listOf(std::span<const std::string> names) {
   return shown.size() == names.size() ? text : fmt::format("{} and {} more", text, names.size() - shown.size());
 }
 
+// Length of the value at the start of `rest`, which ends at the next '&' or, in parentheses, behind their end.
+std::size_t valueLength(std::string_view rest) {
+  int depth = 0;
+  for (std::size_t i = 0; rest.starts_with('(') && i < rest.size(); ++i) {
+    if (rest[i] == '(') ++depth;
+    if (rest[i] == ')') --depth;
+    if (depth == 0 && (i + 1 == rest.size() || rest[i + 1] == '&')) return i + 1;
+    if (depth == 0) break;
+  }
+  return std::min(rest.find('&'), rest.size());
+}
+
+std::size_t parameterLength(std::string_view rest) {
+  const std::size_t sign = rest.find_first_of("=&");
+  if (sign == std::string_view::npos) return rest.size();
+  return rest[sign] == '&' ? sign : sign + 1 + valueLength(rest.substr(sign + 1));
+}
+
+bool isInParentheses(std::string_view value) {
+  return value.size() >= 2 && value.starts_with('(') && value.ends_with(')');
+}
+
+std::string withoutParentheses(std::string_view value) {
+  return std::string(isInParentheses(value) ? value.substr(1, value.size() - 2) : value);
+}
+
 }  // namespace
 
 Spec parseSpec(std::string_view text) {
@@ -45,7 +71,7 @@ Spec parseSpec(std::string_view text) {
   if (question == std::string_view::npos) return spec;
   std::string_view rest = text.substr(question + 1);
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('&'), rest.size());
+    const std::size_t end = parameterLength(rest);
     const std::string_view pair = rest.substr(0, end);
     const std::size_t equals = pair.find('=');
     if (equals == std::string_view::npos || equals == 0)
@@ -53,7 +79,7 @@ Spec parseSpec(std::string_view text) {
     std::string key(pair.substr(0, equals));
     if (std::ranges::any_of(spec.parameters, [&](const auto& p) { return p.first == key; }))
       throwInputError("parameter '{}' stands twice in '{}'", key, text);
-    spec.parameters.emplace_back(std::move(key), std::string(pair.substr(equals + 1)));
+    spec.parameters.emplace_back(std::move(key), withoutParentheses(pair.substr(equals + 1)));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return spec;
@@ -63,7 +89,8 @@ std::string printSpec(const Spec& spec) {
   std::string text = spec.name;
   char separator = '?';
   for (const auto& [key, value] : spec.parameters) {
-    text += separator + key + '=' + value;
+    const bool isAmbiguous = value.find('&') != std::string::npos || isInParentheses(value);
+    text += separator + key + '=' + (isAmbiguous ? '(' + value + ')' : value);
     separator = '&';
   }
   return text;

@@ -1,4 +1,5 @@
-// Values with parameters, written `name?k=v&k2=v2` everywhere: scenes, refresh policies, lookups.
+// Values with parameters, written `name?k=v&k2=v2` everywhere: scenes, refresh policies, lookups. A value that has
+// parameters itself stands in parentheses: `builtin:teapot?environment=(constant?r=1&g=2&b=3)`.
 #pragma once
 
 #include <optional>

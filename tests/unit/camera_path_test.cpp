@@ -152,6 +152,11 @@ TEST(Environments, FollowEachOtherInTime) {
   EXPECT_NE(contentHash(*makeSnapshot(scene, 10, "", 1.0)), contentHash(*makeSnapshot(scene, 70, "", 1.0)));
 }
 
+TEST(Environments, WithParameters_StandInParentheses) {
+  const auto scene = loadScene("builtin:teapot?environment=(black;constant?r=1&g=2&b=3@1)&fps=2");
+  EXPECT_EQ(environmentRadiance(makeSnapshot(scene, 2, "", 1.0)->environment(), vec3(0, 1, 0)), vec3(1, 2, 3));
+}
+
 TEST(Environments, SavedAndLoaded_AreTheSame) {
   Scene scene = *loadScene("builtin:mirrors?count=1&environment=sky;white@1.5");
   std::vector<ImageRgba> faces;

@@ -15,8 +15,16 @@ TEST(Spec, NameAlone_HasNoParameters) {
 
 TEST(Spec, PrintingGivesBackWhatWasParsed) {
   for (const char* text :
-       {"static", "every-n?n=4", "ratio?bias=0&scale=1&power=5", "a/b.glb?mirror=all&environment=x/y z.exr"})
+       {"static", "every-n?n=4", "ratio?bias=0&scale=1&power=5", "a/b.glb?mirror=all&environment=x/y z.exr",
+        "a.glb?environment=(sky;constant?r=1&g=2@3)&mirror=all", "a.glb?environment=x (1).exr&mirror=(1)2"})
     EXPECT_EQ(printSpec(parseSpec(text)), text);
+}
+
+TEST(Spec, ParametersOfAParameter_StandInParentheses) {
+  const Spec spec = parseSpec("a.glb?environment=(constant?r=1&g=(2)&b=3)&mirror=all");
+  ASSERT_EQ(spec.parameters.size(), 2U);
+  EXPECT_EQ(spec.parameters[0].second, "constant?r=1&g=(2)&b=3");
+  EXPECT_EQ(spec.parameters[1].first, "mirror");
 }
 
 TEST(Spec, MalformedParameters_AreRefusedWithTheWholeText) {

@@ -111,6 +111,8 @@ TEST(Suite, RangesWithSteps_AndTimeSteps_AreRead) {
 TEST(Suite, EnvironmentsThatFollowEachOther_AreRelativeToTheSuiteWhereTheyAreFiles) {
   const Suite suite = parse(std::string(kHead) + "[[scene]]\nuse = \"a.glb\"\nenvironment = \"x.exr;sky@1;y.exr@2.5\"");
   EXPECT_EQ(suite.scenes[0].reference, "suites/a.glb?environment=suites/x.exr;sky@1;suites/y.exr@2.5");
+  const Suite grey = parse(std::string(kHead) + "[[scene]]\nuse = \"a.glb\"\nenvironment = \"sky;constant?r=1&g=2@2\"");
+  EXPECT_EQ(grey.scenes[0].name, "a.glb?environment=(sky;constant?r=1&g=2@2)");
 }
 
 TEST(Suite, EnvironmentFile_IsRelativeToTheSuiteLikeTheScene) {
