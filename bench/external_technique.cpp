@@ -31,8 +31,14 @@ std::string readName(TomlReader& reader) {
   return name;
 }
 
+// Without a slash at its end; `folder` is empty for a suite in the current one.
+fs::path absoluteFolder(const std::string& folder) {
+  const fs::path absolute = (fs::current_path() / folder).lexically_normal();
+  return absolute.has_filename() ? absolute : absolute.parent_path();
+}
+
 std::string inFolder(const std::string& path, const std::string& folder) {
-  return fs::absolute(fs::path(folder) / path).lexically_normal().string();
+  return (absoluteFolder(folder) / path).lexically_normal().string();
 }
 
 std::string replaced(std::string text, std::string_view placeholder, const std::string& value) {
@@ -42,11 +48,12 @@ std::string replaced(std::string text, std::string_view placeholder, const std::
 }
 
 std::vector<std::string> readCommand(const toml::node& node, const std::string& file, const std::string& folder) {
+  const std::string suiteFolder = absoluteFolder(folder).string();
   std::vector<std::string> command;
   for (const toml::node& argument : asArray(node, "command", file)) {
     if (!argument.is_string()) throwInputError("{}: 'command' wants strings", placeOf(file, argument));
     const std::string written = argument.value<std::string>().value();
-    command.push_back(replaced(written, "{suite}", fs::absolute(fs::path(folder)).lexically_normal().string()));
+    command.push_back(replaced(written, "{suite}", suiteFolder));
   }
   if (command.empty() || command.front().empty())
     throwInputError("{}: 'command' wants a program and its arguments", placeOf(file, node));

@@ -157,7 +157,7 @@ function setReflection(mesh, texture) {
 
 // ---- The scene
 
-let job, renderer, scene, skyScene, camera, mixer, mirrors, skyTarget, meshes, bounces, feedback;
+let job, renderer, scene, skyScene, environments, camera, mixer, mirrors, skyTarget, skyCube, meshes, bounces, feedback;
 
 function cubeTarget(resolution) {
   return new THREE.WebGLCubeRenderTarget(resolution, {
@@ -193,6 +193,28 @@ function captureSky(mirror) {
   mirror.cube.update(renderer, skyScene);
 }
 
+// The environment from that time on, as long as no other follows.
+async function addEnvironment(parser, fromSeconds, environment) {
+  const objects = [await makeSky(parser, environment)];
+  if (environment.ambient) objects.push(makeAmbient(environment.ambient));
+  scene.add(...objects);
+  const alone = await makeSky(parser, environment);
+  skyScene.add(alone);
+  objects.push(alone);
+  setVisible(objects, false);
+  environments.push({ fromSeconds, objects, isShown: false });
+}
+
+function showEnvironment(timeS) {
+  const current = environments.findLast(({ fromSeconds }) => fromSeconds <= timeS);
+  if (current.isShown) return;
+  for (const environment of environments) {
+    environment.isShown = environment === current;
+    setVisible(environment.objects, environment.isShown);
+  }
+  skyCube.update(renderer, skyScene);
+}
+
 async function load(theJob) {
   job = theJob;
   const { settings, axes } = job.technique;
@@ -209,10 +231,12 @@ async function load(theJob) {
 
   const gltf = await new GLTFLoader().loadAsync('/scene.glb');
   const root = gltf.parser.json.scenes[gltf.parser.json.scene ?? 0];
-  const environment = root.extras?.probebench?.environment ?? { constant: 0 };
-  scene = new THREE.Scene().add(gltf.scene, await makeSky(gltf.parser, environment));
-  if (environment.ambient) scene.add(makeAmbient(environment.ambient));
-  skyScene = new THREE.Scene().add(await makeSky(gltf.parser, environment));
+  const extras = root.extras?.probebench ?? {};
+  scene = new THREE.Scene().add(gltf.scene);
+  skyScene = new THREE.Scene();
+  environments = [];
+  await addEnvironment(gltf.parser, -Infinity, extras.environment ?? { constant: 0 });
+  for (const change of extras.environmentChanges ?? []) await addEnvironment(gltf.parser, change.fromSeconds, change.environment);
 
   mixer = new THREE.AnimationMixer(gltf.scene);
   for (const clip of gltf.animations) mixer.clipAction(clip).play();
@@ -226,7 +250,8 @@ async function load(theJob) {
 
   const far = 4 * new THREE.Box3().setFromObject(gltf.scene).getSize(new THREE.Vector3()).length();
   skyTarget = cubeTarget(resolution);
-  new THREE.CubeCamera(0.1, 10, skyTarget).update(renderer, skyScene);
+  skyCube = new THREE.CubeCamera(0.1, 10, skyTarget);
+  showEnvironment(job.frames[0].time_s);
   for (const mesh of meshes) setReflection(mesh, skyTarget.texture);
   mirrors = job.frames[0].probes.map((probe) => makeMirror(probe, places, resolution, far));
   mirrors.forEach(captureSky);
@@ -244,6 +269,7 @@ async function load(theJob) {
 
 function showTime(frame) {
   mixer.setTime(frame.time_s);
+  showEnvironment(frame.time_s);
   scene.updateMatrixWorld(true);
   camera.matrix.fromArray(frame.world_from_camera);
   camera.updateMatrixWorld(true);

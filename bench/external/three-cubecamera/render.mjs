@@ -88,7 +88,8 @@ async function render(job) {
   const browser = await chromium.launch({
     executablePath: findChromium(settings),
     headless: true,
-    ignoreDefaultArgs: ['--enable-unsafe-swiftshader'],
+    // The driver would let WebGL fall back to SwiftShader where another backend was asked for.
+    ignoreDefaultArgs: backend === backends.swiftshader ? [] : ['--enable-unsafe-swiftshader'],
     args: ['--no-sandbox', '--use-gl=angle', '--disable-gpu-watchdog', ...backend.args],
     env: { ...process.env, ...backend.env },
   });
@@ -104,7 +105,8 @@ async function render(job) {
     await page.waitForFunction(() => window.technique || window.failure);
     if (failure) throw failure;
     const about = await page.evaluate((j) => window.technique.load(j), job);
-    if (!backend.want.test(about.renderer)) throw new Skip(`WebGL is drawn by ${about.renderer}, not by ${settings.backend ?? 'llvmpipe'}`);
+    if (!backend.want.test(about.renderer))
+      throw new Skip(`WebGL is drawn by ${about.renderer}, not by ${settings.backend ?? 'llvmpipe'}`);
     await page.evaluate(() => window.technique.renderPictures());
     if (job.timing) {
       const times = await page.evaluate((n) => window.technique.measure(n), job.timing.repetitions);
@@ -121,6 +123,6 @@ try {
   if (process.argv.length !== 3) throw new Error('usage: render JOB.json');
   await render(JSON.parse(readFileSync(process.argv[2], 'utf8')));
 } catch (error) {
-  console.error(String(error.message ?? error).split('\n')[0]);
+  console.error(String(error.message ?? error).split('\n')[0].replace(/^page\.evaluate: (Error: )?/, ''));
   process.exit(error instanceof Skip ? kSkipped : 1);
 }
