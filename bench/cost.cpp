@@ -247,7 +247,7 @@ class CostSession {
 }  // namespace
 
 int blockFrames(const Technique& technique, int probes, int measuredFrames) {
-  const int faces = probes * capturedFaceCount(technique.faces);
+  const int faces = probes * capturedFaceCount(technique);
   const int cycle = std::max(1, refreshPolicy(technique.refresh).cycle(technique.refresh, faces));
   const int cycles = std::max(1, (measuredFrames + cycle - 1) / cycle);
   return static_cast<int>(std::min<long long>(static_cast<long long>(cycle) * cycles, kMaxBlockFrames));

@@ -1,7 +1,5 @@
 #include "raster/captured_faces.h"
 
-#include "raster/culling.h"
-
 namespace pb {
 namespace {
 
@@ -9,9 +7,9 @@ constexpr int kTop = 2, kBottom = 3;
 
 }  // namespace
 
-FacePart capturedPart(CapturedFaces faces, int face) {
+FacePart capturedPart(const Technique& technique, int face) {
   const bool isSide = face != kTop && face != kBottom;
-  switch (faces) {
+  switch (technique.faces) {
     case CapturedFaces::all:
       return FacePart::whole;
     case CapturedFaces::noTopBottom:
@@ -22,15 +20,14 @@ FacePart capturedPart(CapturedFaces faces, int face) {
   return FacePart::whole;
 }
 
-int capturedFaceCount(CapturedFaces faces) {
+int capturedFaceCount(const Technique& technique) {
   int count = 0;
-  for (int face = 0; face < 6; ++face) count += capturedPart(faces, face) == FacePart::nothing ? 0 : 1;
+  for (int face = 0; face < 6; ++face) count += capturedPart(technique, face) == FacePart::nothing ? 0 : 1;
   return count;
 }
 
-bool isOutsidePart(const Bounds& box, const shading::View& view, FacePart part) {
-  if (part == FacePart::nothing) return true;
-  return (part == FacePart::upperHalf && box.upper.y < view.origin.y) || isOutsideFrustum(box, view);
+bool isOutsidePart(const Bounds& box, const glm::vec3& origin, FacePart part) {
+  return part == FacePart::nothing || (part == FacePart::upperHalf && box.upper.y < origin.y);
 }
 
 int rowsOf(FacePart part, int n) {

@@ -3,20 +3,19 @@
 
 #include "raster/technique.h"
 #include "scenes/scene.h"
-#include "scenes/shading/shading.h"
 
 namespace pb {
 
 enum class FacePart { whole, upperHalf, nothing };
 
 // Of face 0..5 (+X -X +Y -Y +Z -Z). The rest of the face shows the environment.
-FacePart capturedPart(CapturedFaces faces, int face);
+FacePart capturedPart(const Technique& technique, int face);
 
 // Faces of which at least a part is captured, 4 to 6.
-int capturedFaceCount(CapturedFaces faces);
+int capturedFaceCount(const Technique& technique);
 
-// isOutsideFrustum() for the part of the face that `view` shows.
-bool isOutsidePart(const Bounds& box, const shading::View& view, FacePart part);
+// Whether no point of a box that the face sees from `origin` lies in the part.
+bool isOutsidePart(const Bounds& box, const glm::vec3& origin, FacePart part);
 
 // Rows of a face of n x n texels that hold the part, from row 0 in memory on. The four sides have +Y at row 0:
 // cubeFaceDown() in scenes/shading/cubemap.glsl is -Y for all of them.

@@ -50,7 +50,9 @@ void checkSceneFits(const DeviceLimits& limits, const Scene& scene) {
 std::int64_t probeBytes(const Technique& technique, int probes, bool filtered) {
   if (technique.probes == ProbeUse::environmentOnly) return 0;
   const std::int64_t copies = technique.bounceOrder == BounceOrder::simultaneous ? 2 : 1;
-  return copies * 6 * probes * technique.resolution * technique.resolution * kCubeTexelBytes +
+  const std::int64_t texels = std::int64_t{6} * probes * technique.resolution * technique.resolution;
+  const std::int64_t earlier = technique.hysteresis > 0.0f ? texels * kCubeTexelBytes : 0;
+  return earlier + copies * 6 * probes * technique.resolution * technique.resolution * kCubeTexelBytes +
          (filtered ? filteredBytes(technique.filter, technique.resolution, probes) : 0);
 }
 

@@ -137,6 +137,14 @@ const Snapshot& ProbeLayout::apply(const Snapshot& snapshot) {
   return *laidOut_;
 }
 
+// Meshes that deform stay whole: what is cut is uploaded once.
+std::vector<std::shared_ptr<const Mesh>> ProbeLayout::partsOf(const std::shared_ptr<const Mesh>& mesh) {
+  if (mesh->isDeformed) return {mesh};
+  auto& parts = parts_[mesh];
+  if (parts.empty()) parts = connectedParts(mesh, kMaxParts);
+  return parts;
+}
+
 // Each part becomes an instance with a probe at the centre of its box; the others see it in their captures.
 void ProbeLayout::splitOwners(Snapshot& snapshot) {
   std::vector<SnapshotInstance> instances;
@@ -146,8 +154,7 @@ void ProbeLayout::splitOwners(Snapshot& snapshot) {
       instances.push_back(whole);
       continue;
     }
-    auto& parts = parts_[whole.mesh];
-    if (parts.empty()) parts = connectedParts(whole.mesh, kMaxParts);
+    const std::vector<std::shared_ptr<const Mesh>> parts = partsOf(whole.mesh);
     for (const std::shared_ptr<const Mesh>& part : parts) {
       SnapshotInstance instance = whole;
       Probe& probe = probes.emplace_back(snapshot.probes[static_cast<std::size_t>(whole.probe)]);

@@ -25,6 +25,7 @@ class ProbeLayout {
 
  private:
   void splitOwners(Snapshot& snapshot);
+  std::vector<std::shared_ptr<const Mesh>> partsOf(const std::shared_ptr<const Mesh>& mesh);
 
   Technique technique_;
   std::optional<Snapshot> laidOut_;

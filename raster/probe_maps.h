@@ -24,6 +24,8 @@ class ProbeMaps {
 
   // Attaches the face for capture, with a depth buffer that all faces share.
   RenderTarget target(const ProbeFace& face);
+  // The layers whose captures publish() makes visible.
+  const gl::Texture& captured(int probe) const { return mapOf(probe).captured(); }
 
   // Makes captures visible to the lookups that follow, in level 0.
   void publish(const std::vector<ProbeFace>& captured);

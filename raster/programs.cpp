@@ -8,6 +8,7 @@
 #include "raster/shaders/back_faces.frag.h"
 #include "raster/shaders/background.frag.h"
 #include "raster/shaders/background.vert.h"
+#include "raster/shaders/blend_history.frag.h"
 #include "raster/shaders/compose_layers.frag.h"
 #include "raster/shaders/ids.frag.h"
 #include "raster/shaders/prefilter_box.comp.h"
@@ -133,6 +134,10 @@ GLuint Programs::shadow(const SurfaceVariant& variant) {
     caster.textures[0] = variant.textures[0];
   }
   return find(shaders::kSceneVert, shaders::kShadowFrag, "shadow", definesOf(caster) + define("SHADOW_PASS"));
+}
+
+GLuint Programs::blendHistory() {
+  return find(shaders::kBackgroundVert, shaders::kBlendHistoryFrag, "blend_history", "");
 }
 
 GLuint Programs::composeLayers() {

@@ -66,6 +66,7 @@ class Programs {
   GLuint ids(const SurfaceVariant& variant);
   GLuint backFaces(const SurfaceVariant& variant);
   GLuint composeLayers();
+  GLuint blendHistory();
   GLuint shadow(const SurfaceVariant& variant);
 
  private:

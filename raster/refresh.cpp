@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "raster/captured_faces.h"
+#include "raster/culling.h"
 #include "raster/reflection.h"
 #include "raster/refraction.h"
 #include "raster/refresh/policies.h"
@@ -58,12 +59,12 @@ bool isTooFar(const Technique& technique, const glm::vec3& origin, const Bounds&
 std::vector<int> instancesSeen(const Technique& technique, const Snapshot& snapshot, const ProbeFace& f) {
   const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];
   const shading::View view = cubeFaceView(probe.position, f.face, probe.zNear);
-  const FacePart part = capturedPart(technique.faces, f.face);
+  const FacePart part = capturedPart(technique, f.face);
   std::vector<int> seen;
   for (int i = 0; i < static_cast<int>(snapshot.instances.size()); ++i) {
     const Bounds& box = snapshot.instances[static_cast<std::size_t>(i)].worldBounds;
-    if (!isOutsidePart(box, view, part) && !isTooFar(technique, probe.position, box) &&
-        !isHidden(technique, snapshot, probe, i))
+    if (!isOutsidePart(box, probe.position, part) && !isOutsideFrustum(box, view) &&
+        !isTooFar(technique, probe.position, box) && !isHidden(technique, snapshot, probe, i))
       seen.push_back(i);
   }
   return seen;
@@ -113,7 +114,7 @@ std::vector<ProbeFace> allFaces(const Snapshot& snapshot) {
 
 std::vector<ProbeFace> capturedFaces(const Technique& technique, const Snapshot& snapshot) {
   std::vector<ProbeFace> faces = allFaces(snapshot);
-  std::erase_if(faces, [&](const ProbeFace& f) { return capturedPart(technique.faces, f.face) == FacePart::nothing; });
+  std::erase_if(faces, [&](const ProbeFace& f) { return capturedPart(technique, f.face) == FacePart::nothing; });
   return faces;
 }
 

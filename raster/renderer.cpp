@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "raster/capture_history.h"
+#include "raster/captured_faces.h"
 #include "raster/device.h"
 #include "raster/final_image.h"
 #include "raster/lookup.h"
@@ -80,9 +82,10 @@ struct RasterSequence::Impl {
   std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
   std::vector<bool> mapsShownAtFirst(const std::vector<ProbeFace>& due, std::size_t probeCount) const;
   bool wantsLevels(const Snapshot& snapshot) const;
-  void iterate(const std::vector<ProbeFace>& due, PassTimer* passTimer, Frame& frame);
+  void fillMissingFaces(const Snapshot& snapshot, FrameCounters& counters);
+  void iterate(const std::vector<ProbeFace>& due, bool isLast, PassTimer* passTimer, Frame& frame);
   void updateLevels(PassTimer* passTimer, Frame& frame);
-  void capture(const std::vector<ProbeFace>& faces, FrameCounters& counters);
+  void capture(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters);
   void publish(const std::vector<ProbeFace>& faces);
   std::vector<std::array<std::int64_t, 6>> faceAges() const;
 
@@ -94,9 +97,11 @@ struct RasterSequence::Impl {
   std::optional<ScenePass> scenePass;
   std::optional<FinalImage> image;
   std::optional<ProbeMaps> probes;
+  std::optional<CaptureHistory> captureHistory;  // with hysteresis
   std::optional<PassTimer> timer;
   ProbeLayout layout;
   RefreshHistory history;
+  std::vector<std::size_t> filled;  // by probe: 1 + the environment that faces show which are never captured; 0: none
   std::vector<bool> mapShown;     // by probe: lookups read its cube map, not the environment
   std::vector<bool> levelsShown;  // by probe: lookups read its filtered levels
 };
@@ -136,7 +141,9 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sc
   counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()), wantsLevels(snapshot));
   frame.times.shadowMs = timed(passTimer, [&] { scenePass->drawShadows(counters); });
   updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
-  for (int b = 0; isDynamic() && b < technique.bounces; ++b) iterate(due, passTimer, frame);
+  if (probes) fillMissingFaces(snapshot, counters);
+  for (int b = 0; isDynamic() && b < technique.bounces; ++b) iterate(due, b + 1 == technique.bounces, passTimer, frame);
+  updateLevels(passTimer, frame);  // of maps in which nothing but the environment has changed
   frame.times.finalMs =
       timed(passTimer, [&] { scenePass->draw(kFinalPass, image->target(), shownProbes(kNoProbe), counters); });
   device.context.check("rendering a frame");
@@ -152,6 +159,7 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
   const int count = static_cast<int>(snapshot.probes.size());
   const bool filtered = wantsLevels(snapshot);
   checkProbesFit(device.limits, technique, count, filtered, widthPx, heightPx, samplesPerAxis);
+  if (technique.hysteresis > 0.0f) captureHistory.emplace(device.context, device.programs, technique.hysteresis);
   probes.emplace(device.context, device.programs, technique.resolution, count,
                  technique.bounceOrder == BounceOrder::simultaneous, filtered ? technique.filter : ProbeFilter::none);
 }
@@ -184,13 +192,28 @@ std::vector<bool> RasterSequence::Impl::mapsShownAtFirst(const std::vector<Probe
   return shown;
 }
 
+// Faces that are never captured show the environment of the snapshot's time.
+void RasterSequence::Impl::fillMissingFaces(const Snapshot& snapshot, FrameCounters& counters) {
+  filled.resize(snapshot.probes.size(), 0);
+  std::vector<ProbeFace> missing = allFaces(snapshot);
+  std::erase_if(missing, [&](const ProbeFace& f) {
+    return capturedPart(technique, f.face) != FacePart::nothing ||
+           filled[static_cast<std::size_t>(f.probe)] == snapshot.environmentIndex + 1;
+  });
+  for (const ProbeFace& f : missing) {
+    scenePass->draw(capturePass(f), probes->target(f), shownProbes(f.probe), counters, FacePart::nothing);
+    filled[static_cast<std::size_t>(f.probe)] = snapshot.environmentIndex + 1;
+  }
+  if (!missing.empty()) probes->publish(missing);
+}
+
 // One bounce iteration. The maps that lookups see next are filtered as soon as they are published.
-void RasterSequence::Impl::iterate(const std::vector<ProbeFace>& due, PassTimer* passTimer, Frame& frame) {
+void RasterSequence::Impl::iterate(const std::vector<ProbeFace>& due, bool isLast, PassTimer* passTimer, Frame& frame) {
   using Groups = std::vector<std::vector<ProbeFace>>;
   double& captureMs = frame.times.captureMs.emplace_back(0.0);
   for (const auto& faces : technique.bounceOrder == BounceOrder::simultaneous ? Groups{due} : byProbe(due)) {
     captureMs += timed(passTimer, [&] {
-      capture(faces, frame.stats.counters);
+      capture(faces, isLast, frame.stats.counters);
       publish(faces);
     });
     updateLevels(passTimer, frame);
@@ -203,9 +226,11 @@ void RasterSequence::Impl::updateLevels(PassTimer* passTimer, Frame& frame) {
       timed(passTimer, [&] { frame.stats.counters.texelsFiltered += probes->filter(levelsShown); });
 }
 
-void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, FrameCounters& counters) {
+void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters) {
   for (const ProbeFace& f : faces) {
-    scenePass->draw(capturePass(f), probes->target(f), shownProbes(f.probe), counters);
+    const RenderTarget target = probes->target(f);
+    scenePass->draw(capturePass(f), target, shownProbes(f.probe), counters, capturedPart(technique, f.face));
+    if (captureHistory) captureHistory->blend(f, target, probes->captured(f.probe), isLast);
     ++counters.facesCaptured;
   }
 }
@@ -221,7 +246,7 @@ std::vector<std::array<std::int64_t, 6>> RasterSequence::Impl::faceAges() const 
   std::vector<std::array<std::int64_t, 6>> ages = history.lastCapturedFrame;
   const std::int64_t rendered = history.frame - 1;
   for (std::array<std::int64_t, 6>& probe : ages)
-    for (std::int64_t& age : probe) age = rendered - age;
+    for (std::int64_t& age : probe) age = age < 0 ? -1 : rendered - age;
   return ages;
 }
 

@@ -48,7 +48,7 @@ struct PassTimes {
 struct FrameStats {
   FrameCounters counters;
   std::vector<std::array<std::int64_t, 6>>
-      faceAgeFrames;  // per probe and face: frames since its capture (0: this frame)
+      faceAgeFrames;  // per probe and face: frames since its capture (0: this frame), -1 if it is never captured
 };
 
 // A GL context with the compiled programs. Contexts of both backends may exist in one process.

@@ -180,11 +180,18 @@ std::vector<const ScenePass::Draw*> ScenePass::shadowCasters(const gpu::ShadowFa
   return casters;
 }
 
-void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters) {
+void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters,
+                     FacePart shownPart) {
   beginPass(pass, target);
-  const std::vector<const Draw*> visible = visibleDraws(pass, probes.hidden);
+  const std::vector<const Draw*> visible = visibleDraws(pass, probes.hidden, shownPart);
   const auto firstBlended = std::ranges::find_if(visible, [](const Draw* draw) { return draw->isBlended(); });
+  const int rows = rowsOf(shownPart, target.heightPx);
+  if (shownPart != FacePart::whole) {
+    gl_.Enable(GL_SCISSOR_TEST);
+    gl_.Scissor(0, 0, target.widthPx, rows);
+  }
   drawSurfaces({visible.begin(), firstBlended}, pass, probes);
+  gl_.Disable(GL_SCISSOR_TEST);
   drawBackground();
   counters.draws += static_cast<std::int64_t>(visible.size()) + 1;
   counters.triangles += 1;
@@ -197,18 +204,20 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownPr
   }
   if (firstBlended == visible.end()) return;
   const std::vector<const Draw*> blended(firstBlended, visible.end());
-  layers_->compose(target, [&] { drawSurfaces(blended, pass, probes); });
+  layers_->compose({target.framebuffer, target.widthPx, rows}, [&] { drawSurfaces(blended, pass, probes); });
   ++counters.draws;
   ++counters.triangles;
 }
 
 // The surfaces that a pass draws, in order.
-std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, int hiddenProbe) const {
+std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const {
   std::vector<const Draw*> visible;
   for (const Draw& draw : draws_) {
     const int probe = snapshot_->instances[draw.instance].probe;
     const bool isHidden = probe != kNoProbe && probe == hiddenProbe && !draw.isCapturedFromInside;
-    if (!isHidden && isVisible(draw, pass)) visible.push_back(&draw);
+    const bool isOutside = isOutsidePart(snapshot_->instances[draw.instance].worldBounds,
+                                         glm::vec3(passes_[pass].view.origin), part);
+    if (!isHidden && !isOutside && isVisible(draw, pass)) visible.push_back(&draw);
   }
   return visible;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raster/back_faces.h"
+#include "raster/captured_faces.h"
 #include "raster/device.h"
 #include "raster/reflection.h"
 #include "raster/render_target.h"
@@ -36,8 +37,10 @@ class ScenePass {
   // The frame's shadow maps, before what shows them.
   void drawShadows(FrameCounters& counters);
 
-  // The frame's pass number `pass`. Probes that are not shown, and the hidden one, show the environment.
-  void draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters);
+  // The frame's pass number `pass`, surfaces in a part of it only. Probes that are not shown, and the hidden one, show
+  // the environment.
+  void draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters,
+            FacePart shownPart = FacePart::whole);
 
   // The same objects into an RGBA32UI target: SampleId, 0.
   void drawIds(std::size_t pass, const RenderTarget& target);
@@ -74,7 +77,7 @@ class ScenePass {
   void uploadPasses(const std::vector<gpu::PassConstants>& passes);
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const Draw& draw, std::size_t pass) const;
-  std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe) const;
+  std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const;
   void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes);
   std::vector<const Draw*> readBehind(const Draw& draw, std::size_t pass) const;
   void drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder);
