@@ -194,8 +194,9 @@ TEST(External, ProgramThatFails_EndsTheRunWithOneSentence) {
   }
 }
 
+// Waits for the file, which the engine makes when it and its child run.
 std::vector<int> pidsIn(const std::string& path) {
-  while (!fs::exists(path)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 12000 && !fs::exists(path); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::istringstream text(readFile(path));
   std::vector<int> pids(2);
   text >> pids[0] >> pids[1];
@@ -216,9 +217,9 @@ bool endSoon(const std::vector<int>& pids) {
 TEST(External, ProgramThatHangs_IsStoppedAfterItsTime) {
   const Workplace workplace;
   const std::string hang = workplace.engine(fmt::format(", mode = \"hang\", pids = \"{}\"", workplace.path("pids")));
-  const ProgramResult result = workplace.run(hang + "timeout_s = 2\n", "run");
+  const ProgramResult result = workplace.run(hang + "timeout_s = 6\n", "run");
   EXPECT_EQ(result.exitCode, 2);
-  EXPECT_THAT(result.err, HasSubstr("external technique 'engine' may take 2 s (timeout_s) and was stopped after them"));
+  EXPECT_THAT(result.err, HasSubstr("external technique 'engine' may take 6 s (timeout_s) and was stopped after them"));
   EXPECT_TRUE(endSoon(pidsIn(workplace.path("pids.done"))));
 }
 
@@ -264,8 +265,8 @@ TEST(External, Resumed_GetsOnlyTheFramesThatAreMissing) {
   EXPECT_EQ(workplace.externalCells("run").size(), 2u);
 }
 
-// The same technique in two renderers that share no line of code. What is left are half-float cube maps, filters and
-// edges: relMSE 5.8e-6 measured for 640x360 and 4 samples, of which a tenfold is allowed.
+// The same technique in two renderers that share no line of code. What is left are half-float cube maps, edges and the
+// driver's approximate decoding of sRGB textures: relMSE 5.8e-6 measured for 640x360, of which a tenfold is allowed.
 TEST(External, ThreeCubeCamera_DrawsWhatTheRasterDraws) {
   const TemporaryFolder folder;
   const std::string suite = fmt::format(R"(
