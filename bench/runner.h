@@ -21,8 +21,8 @@ using Scenes = std::vector<std::shared_ptr<const Scene>>;  // one a scene of the
 // Loads the suite's scenes and puts the name of a scene's first camera where the suite names none.
 Scenes loadScenes(Suite& suite);
 
-// Throws if the program of an external technique can't be found or a picture that was made earlier is not there: what is
-// sure to fail fails before anything is rendered.
+// Throws if the program of an external technique can't be found or a picture that was made earlier is not there: what
+// is sure to fail fails before anything is rendered.
 void requireExternals(const Suite& suite, const Scenes& scenes, const Plan& plan);
 
 struct RunContext {
@@ -36,8 +36,8 @@ struct RunContext {
 };
 
 struct RunOutcome {
-  std::vector<CellResult> cells;             // in the plan's order
-  std::string benchmarkJson;                 // empty if no cost was measured
+  std::vector<CellResult> cells;  // in the plan's order
+  std::string benchmarkJson;      // empty if no cost was measured
   // External techniques that could not take a scene's job: "external NAME on SCENE" and why, one a pair.
   std::vector<std::pair<std::string, std::string>> skipped;
   std::vector<std::string> noisyReferences;  // those that missed max_noise: one sentence each

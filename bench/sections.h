@@ -23,9 +23,9 @@ struct VaryingAxis {
 struct Section {
   std::vector<Sequence> sequences;  // of the program's own techniques; the axes are theirs
   std::vector<Sequence> externals;  // of external techniques; not both are empty
-  std::vector<VaryingAxis> axes;   // those with more than one value
-  std::vector<std::string> fixed;  // "axis=value" of the others
-  Region region = Region::whole;   // where errors are of most interest: the mask, if there is one
+  std::vector<VaryingAxis> axes;    // those with more than one value
+  std::vector<std::string> fixed;   // "axis=value" of the others
+  Region region = Region::whole;    // where errors are of most interest: the mask, if there is one
   bool severalFrames = false;
 };
 
@@ -44,6 +44,7 @@ double meanError(const Sequence& sequence, Region region, const std::string& met
 double largestError(const Sequence& sequence, Region region, const std::string& metric);
 double meanCounter(const Sequence& sequence, const std::string& name);
 double meanFaceAge(const Sequence& sequence);
+double largestFaceAge(const Sequence& sequence);
 
 // Whether the reference's noise makes up at most a tenth of the relMSE in every frame: against a noisy reference relMSE
 // is on average the true one plus the floor. True where no floor is known.
