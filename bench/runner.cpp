@@ -57,10 +57,17 @@ class TaskQueue {
   std::atomic<int> waiting_{0};
 };
 
-std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameCounters& counters) {
-  return {{"faces_captured", counters.facesCaptured}, {"draws", counters.draws},
-          {"triangles", counters.triangles},          {"fragments", counters.fragments},
-          {"probe_bytes", counters.probeBytes},       {"texels_filtered", counters.texelsFiltered}};
+std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameStats& stats) {
+  const FrameCounters& counters = stats.counters;
+  const std::vector<int>& ofProbes = stats.coats.ofProbes;
+  return {{"faces_captured", counters.facesCaptured},
+          {"draws", counters.draws},
+          {"triangles", counters.triangles},
+          {"fragments", counters.fragments},
+          {"probe_bytes", counters.probeBytes},
+          {"texels_filtered", counters.texelsFiltered},
+          {"coats_from_probe", std::accumulate(ofProbes.begin(), ofProbes.end(), std::int64_t{0})},
+          {"coats_from_environment", stats.coats.fromEnvironment}};
 }
 
 std::vector<double> meanAges(const std::vector<std::array<std::int64_t, 6>>& ages) {
@@ -208,8 +215,9 @@ class Runner {
       if (!measured) continue;
       queue.run([this, &sequence, frame, stats, truth = truths.at(frame), rendered = raster.readImage()] {
         CellResult cell = makeCell(c_.suite, sequence, frame);
-        cell.counters = namedCounters(stats.counters);
+        cell.counters = namedCounters(stats);
         cell.faceAgeFrames = meanAges(stats.faceAgeFrames);
+        cell.coatsOfProbes = stats.coats.ofProbes;
         finishCell(sequence, std::move(cell), *truth, rendered);
       });
     }

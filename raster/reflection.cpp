@@ -24,4 +24,16 @@ std::vector<bool> probesOfRoughLobes(const Technique& technique, const Snapshot&
   return looked;
 }
 
+CoatSources coatSources(const Technique& technique, const Snapshot& snapshot) {
+  CoatSources sources{std::vector<int>(snapshot.probes.size(), 0), 0};
+  for (const SnapshotInstance& instance : snapshot.instances) {
+    const bool hasCoat = snapshot.materialOf(instance).constants.kind.x == shading::kSurfaceGlossy;
+    if (instance.probe >= 0 || !hasCoat) continue;
+    const Reflection reflection = reflectionOf(technique, snapshot, instance);
+    if (reflection.source == ReflectionSource::probe) ++sources.ofProbes[static_cast<std::size_t>(reflection.probe)];
+    if (reflection.source == ReflectionSource::environment) ++sources.fromEnvironment;
+  }
+  return sources;
+}
+
 }  // namespace pb

@@ -19,6 +19,16 @@ struct Reflection {
 // environment.
 Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance);
 
+// What serves the coats and gloss of instances without a probe of their own, once all probes are captured: how many
+// instances look up the cube map of each probe, and how many the environment.
+struct CoatSources {
+  std::vector<int> ofProbes;
+  int fromEnvironment = 0;
+
+  friend bool operator==(const CoatSources&, const CoatSources&) = default;
+};
+CoatSources coatSources(const Technique& technique, const Snapshot& snapshot);
+
 // By probe: whether a rough lobe looks its cube map up, so that it wants filtered levels.
 std::vector<bool> probesOfRoughLobes(const Technique& technique, const Snapshot& snapshot);
 

@@ -150,6 +150,7 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sc
 
   advance(history, due, snapshot);
   frame.stats.faceAgeFrames = faceAges();
+  frame.stats.coats = coatSources(technique, snapshot);
   return frame;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "raster/reflection.h"
 #include "raster/refresh.h"
 #include "raster/technique.h"
 #include "scenes/image.h"
@@ -49,6 +50,7 @@ struct FrameStats {
   FrameCounters counters;
   std::vector<std::array<std::int64_t, 6>>
       faceAgeFrames;  // per probe and face: frames since its capture (0: this frame), -1 if it is never captured
+  CoatSources coats;  // in the final image
 };
 
 // A GL context with the compiled programs. Contexts of both backends may exist in one process.

@@ -311,6 +311,36 @@ TEST(Gate, PassesTheBlessedRunAndFailsAnotherOne) {
   EXPECT_THAT(other.out, HasSubstr("missing"));
 }
 
+// As a program wrote it that didn't know these axes and counted no coats.
+TEST(Gate, ReadsResultsFromBeforeAnAxisWasAdded) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run("run").exitCode, 0);
+  auto document = nlohmann::ordered_json::parse(readFile(workplace.path("run/results.json")));
+  for (auto& cell : document["cells"]) {
+    for (const char* axis : {"coats", "shadow_resolution"}) cell["technique"].erase(axis);
+    for (const char* counter : {"coats_from_probe", "coats_from_environment"}) cell["counters"].erase(counter);
+    cell.erase("coats_of_probes");
+  }
+  fs::create_directory(workplace.path("older"));
+  writeFileAtomically(workplace.path("older/results.json"), document.dump());
+
+  EXPECT_EQ(runProgram({"report", workplace.path("older")}).exitCode, 0);
+  const ProgramResult merged = runProgram({"merge", workplace.path("older"), "-o", workplace.path("merged")});
+  EXPECT_EQ(merged.exitCode, 0) << merged.err;
+  const std::string baseline = workplace.path("baseline.json");
+  const ProgramResult blessed =
+      runProgram({"bless", workplace.path("merged"), "--baseline", baseline, "--reason", "first"});
+  EXPECT_EQ(blessed.exitCode, 0) << blessed.err;
+  const ProgramResult same = runProgram({"check", workplace.path("run"), "--baseline", baseline});
+  EXPECT_EQ(same.exitCode, 0) << same.out;
+  EXPECT_THAT(same.out, HasSubstr("were not compared: coats_from_environment, coats_from_probe."));
+
+  ASSERT_EQ(workplace.run("run", {"--set", "coats=none"}).exitCode, 0);
+  const ProgramResult other = runProgram({"check", workplace.path("run"), "--baseline", baseline});
+  EXPECT_EQ(other.exitCode, 1);
+  EXPECT_THAT(other.out, HasSubstr("coats=none"));
+}
+
 TEST(Run, WithCost_MeasuresWhatTheModelCounts) {
   std::string suite = kSmall;
   suite.replace(suite.find("repetitions = 0"), 15, "repetitions = 3");

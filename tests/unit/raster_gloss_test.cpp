@@ -466,6 +466,25 @@ TEST(Reflection, OwnProbeThenNearestProbeThenEnvironment) {
   EXPECT_EQ(reflectionOf(technique, *snapshot, mirror).probe, mirror.probe);
 }
 
+// One coated ball; the mirror's own lobe is no coat, and the box is unlit.
+TEST(Reflection, CoatsAreCountedByWhatServesThem) {
+  const auto snapshot = snapshotOf(makeCoatedBall());
+  Technique technique;
+  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{1}, 0}));
+  technique.coats = Coats::environment;
+  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{0}, 1}));
+  technique.coats = Coats::none;
+  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{0}, 0}));
+  technique.coats = Coats::nearestProbe;
+  technique.probes = ProbeUse::environmentOnly;
+  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{0}, 1}));
+}
+
+TEST_P(RasterGloss, FramesSayWhatServedTheirCoats) {
+  RasterSequence sequence(device(), withResolution(8), 8, 8, 1);
+  EXPECT_EQ(sequence.renderFrame(*snapshotOf(makeCoatedBall())).coats, (CoatSources{{1}, 0}));
+}
+
 // --- Glass
 // ------------------------------------------------------------------------------------------------------------
 
