@@ -152,7 +152,7 @@ int render(const RenderOptions& options, const GlobalOptions& globals) {
 void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& action) {
   CLI::App* command = app.add_subcommand("render", "one picture of a scene");
   const auto options = std::make_shared<RenderOptions>();
-  command->add_option("SCENE", options->scene, "a .gltf or .glb file, or builtin:NAME, with ?key=value options")
+  command->add_option("SCENE", options->scene, "a .gltf, .glb or .obj file, or builtin:NAME, with ?key=value options")
       ->required();
   command->add_option("--with", options->renderer, "raster or reference")
       ->required()

@@ -41,11 +41,11 @@ void addScenesCommand(CLI::App& app, const GlobalOptions&, Action& action) {
   const auto reference = std::make_shared<std::string>();
   const auto output = std::make_shared<std::string>();
   CLI::App* info = scenes->add_subcommand("info", "load a scene and print what was found and what was ignored");
-  info->add_option("SCENE", *reference, "a .gltf or .glb file, or builtin:NAME")->required();
+  info->add_option("SCENE", *reference, "a .gltf, .glb or .obj file, or builtin:NAME")->required();
   info->callback([&action, reference] { action = [reference] { return printScene(*reference); }; });
 
   CLI::App* save = scenes->add_subcommand("export", "write a scene as a .glb file");
-  save->add_option("SCENE", *reference, "a .gltf or .glb file, or builtin:NAME")->required();
+  save->add_option("SCENE", *reference, "a .gltf, .glb or .obj file, or builtin:NAME")->required();
   save->add_option("-o", *output, "the .glb file")->required();
   save->callback(
       [&action, reference, output] { action = [reference, output] { return exportScene(*reference, *output); }; });
