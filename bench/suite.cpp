@@ -373,7 +373,10 @@ std::string canonicalText(const Suite& suite) {
                                  suite.image.heightPx, suite.image.samplesPerAxis, suite.reference.depth.value_or(0),
                                  printDiffuse(suite.reference.diffuse), suite.reference.diffuseDepth.value_or(-1),
                                  suite.reference.spp, suite.reference.maxNoise.value_or(-1), suite.cost.repetitions);
-  for (const auto& [axis, value] : describe(suite.technique)) text += fmt::format("{} = {}\n", axis, value);
+  // Without what stands at its default: a new axis doesn't change suites that don't name it.
+  for (const Axis& axis : axisTable())
+    if (const std::string value = axis.print(suite.technique); value != axis.print(Technique()))
+      text += fmt::format("{} = {}\n", axis.name, value);
   for (const SuiteScene& scene : suite.scenes)
     text += fmt::format("scene {} camera '{}' exposure {} frames {}\n", scene.name, scene.camera, scene.exposure,
                         framesText(scene));
