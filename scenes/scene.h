@@ -279,9 +279,9 @@ void finishScene(Scene& scene);
 // A camera that sees the whole box from the front and a little above.
 void addFramingCamera(Scene& scene);
 
-// "builtin:NAME[?k=v..]" or a path to .gltf, .glb or .obj, with options environment=FILE|sky|..[;FILE|sky|..@SECONDS]..,
-// shadows=none|traced, fps=F or time_step=SECONDS, and mirror=NODE|all.
-// Throws an input Error for anything that is not a scene.
+// "builtin:NAME[?k=v..]" or a path to .gltf, .glb or .obj, with options
+// environment=FILE|sky|..[;FILE|sky|..@SECONDS].., shadows=none|traced, fps=F or time_step=SECONDS, and
+// mirror=NODE|all. Throws an input Error for anything that is not a scene.
 std::shared_ptr<const Scene> loadScene(const std::string& reference);
 
 }  // namespace pb
