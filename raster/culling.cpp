@@ -9,14 +9,13 @@ namespace {
 // Rounding of boxes and planes, relative to the sizes of the numbers involved: some tens of units in the last place.
 constexpr float kMargin = 1e-5f;
 
-// Largest value of dot(normal, p) + offset over the points p of the box is negative beyond rounding.
+}  // namespace
+
 bool isBehindPlane(const Bounds& box, const glm::vec3& normal, float offset) {
   const glm::vec3 farthest = glm::mix(box.lower, box.upper, glm::greaterThan(normal, glm::vec3(0.0f)));
   const float magnitude = glm::dot(glm::abs(normal), glm::abs(farthest)) + glm::abs(offset);
   return glm::dot(normal, farthest) + offset < -kMargin * magnitude;
 }
-
-}  // namespace
 
 bool isOutsideFrustum(const Bounds& box, const shading::View& view) {
   const glm::vec3 origin(view.origin), forward(view.forward), right(view.right), down(view.down);

@@ -16,7 +16,8 @@ using shading::View;
 
 #include "raster/shaders/gpu_structs.glsl"
 
-static_assert(sizeof(PassConstants) == 6 * 16 && sizeof(SceneConstants) == 14 * 16);
+static_assert(sizeof(PassConstants) == 7 * 16 && sizeof(SceneConstants) == 14 * 16);
+static_assert(sizeof(ProbeConstants) == 4 * 16);
 static_assert(sizeof(ShadowFace) == 5 * 16);
 static_assert(sizeof(InstanceConstants) == 10 * 16 && offsetof(InstanceConstants, values) == 8 * 16);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "raster/gpu_structs.h"
+#include "raster/lookup.h"
 #include "raster/prefilter.h"
 #include "scenes/error.h"
 
@@ -50,10 +51,16 @@ void checkSceneFits(const DeviceLimits& limits, const Scene& scene) {
 std::int64_t probeBytes(const Technique& technique, int probes, bool filtered) {
   if (technique.probes == ProbeUse::environmentOnly) return 0;
   const std::int64_t copies = technique.bounceOrder == BounceOrder::simultaneous ? 2 : 1;
-  const std::int64_t texels = std::int64_t{6} * probes * technique.resolution * technique.resolution;
+  const std::int64_t texels =
+      std::int64_t{viewsOfProbe(technique)} * probes * technique.resolution * technique.resolution;
   const std::int64_t earlier = technique.hysteresis > 0.0f ? texels * kCubeTexelBytes : 0;
-  return earlier + copies * 6 * probes * technique.resolution * technique.resolution * kCubeTexelBytes +
+  const std::int64_t texelBytes = kCubeTexelBytes + (needsDistances(technique) ? kDepthBytes : 0);
+  return earlier + copies * texels * texelBytes +
          (filtered ? filteredBytes(technique.filter, technique.resolution, probes) : 0);
+}
+
+std::int64_t mirroredViewBytes(std::size_t views, int widthSamples, int heightSamples) {
+  return static_cast<std::int64_t>(views) * widthSamples * heightSamples * kCubeTexelBytes;
 }
 
 void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int samplesPerAxis) {

@@ -20,9 +20,12 @@ struct DeviceLimits {
 // Throws an input Error when a texture or the environment is too large for the device, or all together.
 void checkSceneFits(const DeviceLimits& limits, const Scene& scene);
 
-// Colour memory of the cube maps of `probes` probes; with what the technique's filter takes if rough lobes look them
-// up.
+// Memory of the cube maps of `probes` probes, with their distances if the lookup reads them, and with what the
+// technique's filter takes if rough lobes look them up.
 std::int64_t probeBytes(const Technique& technique, int probes, bool filtered);
+
+// Memory of the images of that many mirrored views, of so many samples each.
+std::int64_t mirroredViewBytes(std::size_t views, int widthSamples, int heightSamples);
 
 // Throws an input Error that names both numbers when the final image exceeds the device.
 void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int samplesPerAxis);

@@ -10,7 +10,8 @@ namespace pb {
 SpecReader lookupReader(const Spec& spec) { return {spec, "lookup '" + printSpec(spec) + "'"}; }
 
 const std::vector<Lookup>& lookups() {
-  static const std::vector<Lookup> table = {infiniteLookup()};
+  static const std::vector<Lookup> table = {infiniteLookup(),         sphereProxyLookup(), boxProxyLookup(),
+                                            distanceImpostorLookup(), planarLookup(),      singleViewLookup()};
   return table;
 }
 
@@ -25,5 +26,13 @@ const Lookup& lookupOf(const Spec& spec) {
 }
 
 void checkLookup(const Spec& spec) { lookupOf(spec).defines(spec); }
+
+bool needsDistances(const Technique& technique) { return lookupOf(technique.lookup).readsDistances; }
+
+int viewsOfProbe(const Technique& technique) { return lookupOf(technique.lookup).isSingleView ? 1 : 6; }
+
+ProbeFilter mapFilter(const Technique& technique) {
+  return lookupOf(technique.lookup).isSingleView ? ProbeFilter::none : technique.filter;
+}
 
 }  // namespace pb

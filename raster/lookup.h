@@ -1,5 +1,8 @@
 // Lookups: how a shaded point turns a reflected or refracted direction into a texel of a probe's map.
 //
+// Points look along a direction from where they are; a lookup turns that into a direction from the probe
+// (raster/shaders/lookup_direction.glsl) for reflected and refracted rays alike.
+//
 // Adding one: a file in raster/lookup/ with a Lookup, a line in the table of lookup.cpp, and its GLSL in
 // raster/shaders/.
 #pragma once
@@ -7,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/spec.h"
+#include "raster/technique.h"
 
 namespace pb {
 
@@ -18,6 +21,10 @@ struct Lookup {
   std::string source;       // paper, or who does it like that
   // Validates the parameters and gives the defines of the shader variant (radiance_lookup.glsl); throws an input Error.
   std::string (*defines)(const Spec&);
+  bool readsDistances = false;  // of what the probe's map shows
+  bool readsProbe = false;      // where the probe and its proxies are
+  bool isPlanar = false;        // reflections of flat reflectors come from mirrored views (raster/planar.h)
+  bool isSingleView = false;    // probes capture one view instead of six faces
 };
 
 const std::vector<Lookup>& lookups();
@@ -25,5 +32,14 @@ const std::vector<Lookup>& lookups();
 // Throws an input Error for an unknown lookup or parameter.
 const Lookup& lookupOf(const Spec& spec);
 void checkLookup(const Spec& spec);
+
+// Whether probes keep the distances of what they capture.
+bool needsDistances(const Technique& technique);
+
+// Views that a probe captures: the six faces of a cube, or one.
+int viewsOfProbe(const Technique& technique);
+
+// How the maps of probes are filtered: single views aren't.
+ProbeFilter mapFilter(const Technique& technique);
 
 }  // namespace pb

@@ -1,8 +1,38 @@
 #include "raster/reflection.h"
 
+#include <algorithm>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numeric>
+
 #include "raster/prefilter.h"
 
 namespace pb {
+namespace {
+
+// Inverse metres; a probe nearer than a micrometre counts as so near.
+float closeness(const Probe& probe, const glm::vec3& p) {
+  return 1.0f / std::max(glm::distance(probe.position, p), 1e-6f);
+}
+
+Reflection blendOfNearest(const Snapshot& snapshot, const SnapshotInstance& instance) {
+  const glm::vec3 centre = instance.worldBounds.centre();
+  std::vector<int> order(snapshot.probes.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto closenessOf = [&](int probe) {
+    return closeness(snapshot.probes[static_cast<std::size_t>(probe)], centre);
+  };
+  std::ranges::stable_sort(order, std::ranges::greater(), closenessOf);
+  if (order.size() == 1) return {ReflectionSource::probe, order[0]};
+  const float third = order.size() > 2 ? closenessOf(order[2]) : 0.0f;
+  const float first = closenessOf(order[0]) - third;
+  const float second = closenessOf(order[1]) - third;
+  // All three at one distance.
+  if (first <= 0.0f) return {ReflectionSource::probe, order[0], order[1], 0.5f};
+  return {ReflectionSource::probe, order[0], order[1], second / (first + second)};
+}
+
+}  // namespace
 
 Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance) {
   const bool hasCoat = snapshot.materialOf(instance).constants.kind.x == shading::kSurfaceGlossy;
@@ -11,6 +41,8 @@ Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, co
   if (instance.probe >= 0) return {ReflectionSource::probe, instance.probe};
   if (hasCoat && technique.coats == Coats::nearestProbe && instance.nearestProbe >= 0)
     return {ReflectionSource::probe, instance.nearestProbe};
+  if (hasCoat && technique.coats == Coats::blendedProbes && !snapshot.probes.empty())
+    return blendOfNearest(snapshot, instance);
   return {ReflectionSource::environment};
 }
 
@@ -18,8 +50,9 @@ std::vector<bool> probesOfRoughLobes(const Technique& technique, const Snapshot&
   std::vector<bool> looked(snapshot.probes.size(), false);
   for (const SnapshotInstance& instance : snapshot.instances) {
     const Reflection reflection = reflectionOf(technique, snapshot, instance);
-    if (reflection.source == ReflectionSource::probe && hasRoughLobe(snapshot.materialOf(instance)))
-      looked[static_cast<std::size_t>(reflection.probe)] = true;
+    if (reflection.source != ReflectionSource::probe || !hasRoughLobe(snapshot.materialOf(instance))) continue;
+    for (const int probe : {reflection.probe, reflection.second})
+      if (probe >= 0) looked[static_cast<std::size_t>(probe)] = true;
   }
   return looked;
 }

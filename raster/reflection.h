@@ -12,11 +12,17 @@ enum class ReflectionSource { probe, environment, nothing };
 
 struct Reflection {
   ReflectionSource source;
-  int probe = -1;  // whose cube map is looked up, once it is captured; the environment until then
+  int probe = -1;   // whose cube map is looked up, once it is captured; the environment until then
+  int second = -1;  // mixed with that of a second one, if both are captured, else the one that is
+  float secondWeight = 0.0f;
 };
 
 // An instance's own probe; without one, coats and gloss see what the technique's `coats` says, mirrors and glass the
 // environment.
+//
+// Blended are the two probes nearest to the centre of the instance's bounds, at the distances a <= b, with weights in
+// the ratio of 1/a - 1/c to 1/b - 1/c, c the distance of the third one (1/c = 0 without): inverse distances, lowered so
+// that the weights of an instance that moves are continuous where its second probe becomes another one.
 Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance);
 
 // What serves the coats and gloss of instances without a probe of their own, once all probes are captured: how many

@@ -11,8 +11,11 @@
 #include "raster/final_image.h"
 #include "raster/lookup.h"
 #include "raster/pass_timer.h"
+#include "raster/planar.h"
+#include "raster/planar_images.h"
 #include "raster/probe_layout.h"
 #include "raster/probe_maps.h"
+#include "raster/proxy.h"
 #include "raster/reflection.h"
 #include "raster/refresh/policies.h"
 #include "raster/scene_pass.h"
@@ -33,7 +36,16 @@ gpu::PassConstants passConstants(const Snapshot& snapshot, const shading::View& 
   return {.view = withResolution(view, width),
           .image = {static_cast<float>(width), static_cast<float>(height), largestRadiance, 0.0f},
           .lights = {static_cast<float>(snapshot.lights.size()), static_cast<float>(snapshot.areaLights.size()), 0.0f,
-                     0.0f}};
+                     0.0f},
+          .clip = glm::vec4(0.0f)};
+}
+
+// A single view stands for all faces of a probe.
+std::vector<ProbeFace> oneFaceEach(std::vector<ProbeFace> faces) {
+  const auto isSameProbe = [](const ProbeFace& a, const ProbeFace& b) { return a.probe == b.probe; };
+  faces.erase(std::unique(faces.begin(), faces.end(), isSameProbe), faces.end());
+  for (ProbeFace& f : faces) f.face = 0;
+  return faces;
 }
 
 // Faces that are ordered by probe, one group a probe.
@@ -76,10 +88,11 @@ struct RasterSequence::Impl {
   };
   Frame renderFrame(const Snapshot& sceneSnapshot, PassTimer* passTimer);
 
-  bool isDynamic() const { return technique.probes == ProbeUse::dynamic; }
+  bool isDynamic() const { return technique.probes == ProbeUse::dynamic && capturesMaps; }
   ShownProbes shownProbes(int hidden) const { return {probes ? &*probes : nullptr, mapShown, hidden}; }
   void allocateProbes(const Snapshot& snapshot);
   std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
+  void appendCapturePasses(const Snapshot& snapshot, std::vector<gpu::PassConstants>& passes) const;
   std::vector<bool> mapsShownAtFirst(const std::vector<ProbeFace>& due, std::size_t probeCount) const;
   bool wantsLevels(const Snapshot& snapshot) const;
   void fillMissingFaces(const Snapshot& snapshot, FrameCounters& counters);
@@ -87,6 +100,8 @@ struct RasterSequence::Impl {
   void updateLevels(PassTimer* passTimer, Frame& frame);
   void capture(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters);
   void publish(const std::vector<ProbeFace>& faces);
+  void drawMirroredViews(const Snapshot& snapshot, PassTimer* passTimer, Frame& frame);
+  std::size_t passesBeforeMirrors(const Snapshot& snapshot) const;
   std::vector<std::array<std::int64_t, 6>> faceAges() const;
 
   RasterDevice::Impl& device;
@@ -101,9 +116,13 @@ struct RasterSequence::Impl {
   std::optional<PassTimer> timer;
   ProbeLayout layout;
   RefreshHistory history;
-  std::vector<std::size_t> filled;  // by probe: 1 + the environment that faces show which are never captured; 0: none
-  std::vector<bool> mapShown;     // by probe: lookups read its cube map, not the environment
-  std::vector<bool> levelsShown;  // by probe: lookups read its filtered levels
+  std::vector<std::size_t> filled;    // by probe: 1 + the environment that faces show which are never captured; 0: none
+  std::vector<MirroredView> mirrors;  // of this frame
+  std::optional<PlanarImages> mirrorImages;
+  std::vector<GLuint> mirrorImageOfInstance;  // by instance: 0 for those that show none
+  bool capturesMaps = true;                   // something looks the maps of probes up
+  std::vector<bool> mapShown;                 // by probe: lookups read its cube map, not the environment
+  std::vector<bool> levelsShown;              // by probe: lookups read its filtered levels
 };
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_,
@@ -129,6 +148,8 @@ RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& techniq
 RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sceneSnapshot, PassTimer* passTimer) {
   device.context.makeCurrent();
   const Snapshot& snapshot = layout.apply(sceneSnapshot);
+  mirrors = mirroredViews(technique, snapshot);
+  capturesMaps = looksUpMaps(technique, snapshot);
   allocateProbes(snapshot);
   const std::vector<ProbeFace> due =
       isDynamic() ? dueFaces(technique.refresh, history, snapshot) : std::vector<ProbeFace>{};
@@ -138,14 +159,20 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sc
 
   Frame frame;
   FrameCounters& counters = frame.stats.counters;
-  counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()), wantsLevels(snapshot));
+  if (isDynamic())
+    counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()), wantsLevels(snapshot));
+  counters.probeBytes += mirroredViewBytes(mirrors.size(), image->widthSamples(), image->heightSamples());
   frame.times.shadowMs = timed(passTimer, [&] { scenePass->drawShadows(counters); });
   updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
-  if (probes) fillMissingFaces(snapshot, counters);
-  for (int b = 0; isDynamic() && b < technique.bounces; ++b) iterate(due, b + 1 == technique.bounces, passTimer, frame);
+  if (probes && viewsOfProbe(technique) > 1) fillMissingFaces(snapshot, counters);
+  const std::vector<ProbeFace> captured = viewsOfProbe(technique) == 1 ? oneFaceEach(due) : due;
+  for (int b = 0; isDynamic() && b < technique.bounces; ++b)
+    iterate(captured, b + 1 == technique.bounces, passTimer, frame);
   updateLevels(passTimer, frame);  // of maps in which nothing but the environment has changed
-  frame.times.finalMs =
-      timed(passTimer, [&] { scenePass->draw(kFinalPass, image->target(), shownProbes(kNoProbe), counters); });
+  drawMirroredViews(snapshot, passTimer, frame);
+  ShownProbes shown = shownProbes(kNoProbe);
+  shown.mirroredViews = mirrors.empty() ? nullptr : &mirrorImageOfInstance;
+  frame.times.finalMs = timed(passTimer, [&] { scenePass->draw(kFinalPass, image->target(), shown, counters); });
   device.context.check("rendering a frame");
 
   advance(history, due, snapshot);
@@ -161,12 +188,14 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
   const bool filtered = wantsLevels(snapshot);
   checkProbesFit(device.limits, technique, count, filtered, widthPx, heightPx, samplesPerAxis);
   if (technique.hysteresis > 0.0f) captureHistory.emplace(device.context, device.programs, technique.hysteresis);
-  probes.emplace(device.context, device.programs, technique.resolution, count,
-                 technique.bounceOrder == BounceOrder::simultaneous, filtered ? technique.filter : ProbeFilter::none);
+  probes.emplace(device.context, device.programs, technique.resolution, count, viewsOfProbe(technique),
+                 technique.bounceOrder == BounceOrder::simultaneous, filtered ? technique.filter : ProbeFilter::none,
+                 needsDistances(technique));
 }
 
 // The same for all frames of a sequence: instances keep their materials, and one scene has the same number of probes.
 bool RasterSequence::Impl::wantsLevels(const Snapshot& snapshot) const {
+  if (mapFilter(technique) == ProbeFilter::none) return false;
   const std::vector<bool> looked = probesOfRoughLobes(technique, snapshot);
   return std::ranges::find(looked, true) != looked.end();
 }
@@ -174,13 +203,23 @@ bool RasterSequence::Impl::wantsLevels(const Snapshot& snapshot) const {
 std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {
   std::vector<gpu::PassConstants> passes = {
       passConstants(snapshot, snapshot.camera, image->widthSamples(), image->heightSamples(), kUnlimited)};
-  if (!probes) return passes;
-  for (const ProbeFace& f : allFaces(snapshot)) {
-    const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];
-    passes.push_back(passConstants(snapshot, cubeFaceView(probe.position, f.face, probe.zNear), technique.resolution,
-                                   technique.resolution, kLargestHalf));
+  if (probes) appendCapturePasses(snapshot, passes);
+  for (const MirroredView& mirror : mirrors) {
+    passes.push_back(passConstants(snapshot, mirror.view, image->widthSamples(), image->heightSamples(), kLargestHalf));
+    passes.back().clip = {mirror.plane.normal, -mirror.plane.offset};
   }
   return passes;
+}
+
+void RasterSequence::Impl::appendCapturePasses(const Snapshot& snapshot,
+                                               std::vector<gpu::PassConstants>& passes) const {
+  const bool isSingleView = viewsOfProbe(technique) == 1;
+  for (const ProbeFace& f : allFaces(snapshot)) {
+    const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];
+    const shading::View view =
+        isSingleView ? singleView(snapshot, probe) : cubeFaceView(probe.position, f.face, probe.zNear);
+    passes.push_back(passConstants(snapshot, view, technique.resolution, technique.resolution, kLargestHalf));
+  }
 }
 
 // What lookups read before the frame's first capture: maps that are complete, unless the technique wants probes that
@@ -240,6 +279,28 @@ void RasterSequence::Impl::publish(const std::vector<ProbeFace>& faces) {
   if (faces.empty()) return;
   probes->publish(faces);
   for (const ProbeFace& f : faces) mapShown[static_cast<std::size_t>(f.probe)] = true;
+}
+
+// The views of planar reflectors, which see the newest maps.
+void RasterSequence::Impl::drawMirroredViews(const Snapshot& snapshot, PassTimer* passTimer, Frame& frame) {
+  if (mirrors.empty()) return;
+  if (!mirrorImages) mirrorImages.emplace(device.context, image->widthSamples(), image->heightSamples());
+  mirrorImages->reserve(mirrors.size());
+  mirrorImageOfInstance.assign(snapshot.instances.size(), 0);
+  if (frame.times.captureMs.empty()) frame.times.captureMs.push_back(0.0);
+  frame.times.captureMs.back() += timed(passTimer, [&] {
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+      const std::size_t pass = passesBeforeMirrors(snapshot) + i;
+      scenePass->draw(pass, mirrorImages->target(i), shownProbes(kNoProbe), frame.stats.counters);
+      ++frame.stats.counters.facesCaptured;
+      for (const int instance : mirrors[i].instances)
+        mirrorImageOfInstance[static_cast<std::size_t>(instance)] = mirrorImages->image(i);
+    }
+  });
+}
+
+std::size_t RasterSequence::Impl::passesBeforeMirrors(const Snapshot& snapshot) const {
+  return 1 + (probes ? 6 * snapshot.probes.size() : 0);
 }
 
 std::vector<std::array<std::int64_t, 6>> RasterSequence::Impl::faceAges() const {

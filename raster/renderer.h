@@ -27,11 +27,12 @@ struct GlInfo {
 
 // Deterministic work of one frame.
 struct FrameCounters {
-  std::int64_t facesCaptured = 0;  // face renders, all bounce iterations
+  std::int64_t facesCaptured = 0;  // face renders, all bounce iterations, and mirrored views
   std::int64_t draws = 0;
   std::int64_t triangles = 0;
   std::int64_t fragments = 0;       // samples that passed the depth test; 0 unless counting was asked for
-  std::int64_t probeBytes = 0;      // colour memory of the cube maps, of their filtered levels and of the filter
+  std::int64_t probeBytes = 0;      // memory of the cube maps, of their filtered levels and of the filter, of the
+                                    // distances that lookups read, and of mirrored views
   std::int64_t texelsFiltered = 0;  // written by the filter of the cube maps, its own copies included
 
   FrameCounters& operator+=(const FrameCounters& other);  // probeBytes: the larger
@@ -40,7 +41,7 @@ struct FrameCounters {
 
 // Milliseconds by pass; wall time between glFinish calls on software GL, timer queries on a GPU.
 struct PassTimes {
-  std::vector<double> captureMs;  // by bounce iteration
+  std::vector<double> captureMs;  // by bounce iteration; mirrored views count to the last one
   double shadowMs = 0.0;          // shadow maps, drawn once a frame
   double prefilterMs = 0.0;       // all bounce iterations
   double finalMs = 0.0;

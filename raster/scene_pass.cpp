@@ -8,18 +8,25 @@
 #include <tuple>
 
 #include "raster/culling.h"
+#include "raster/lookup.h"
+#include "raster/planar.h"
 #include "raster/probe_maps.h"
+#include "raster/proxy.h"
 #include "raster/refraction.h"
 #include "scenes/closed_mesh.h"
 
 namespace pb {
 namespace {
 
-gpu::InstanceConstants constantsOf(const SnapshotInstance& instance) {
+constexpr const char* kBlendDefines = "#define BLENDED_PROBES\n";
+constexpr const char* kPlanarDefines = "#define PLANAR_LOOKUP\n";
+
+gpu::InstanceConstants constantsOf(const SnapshotInstance& instance, const Reflection& reflection) {
   return {.worldFromObject = instance.worldFromObject,
           .normalMatrix = glm::mat4(instance.normalMatrix),
           .values = {instance.uvScale, 0.0f, static_cast<float>(instance.source + 1), instance.mirrored ? -1.0f : 1.0f},
-          .volume = {std::cbrt(std::abs(glm::determinant(glm::mat3(instance.worldFromObject)))), 0.0f, 0.0f, 0.0f}};
+          .volume = {std::cbrt(std::abs(glm::determinant(glm::mat3(instance.worldFromObject)))),
+                     reflection.secondWeight, 0.0f, 0.0f}};
 }
 
 // Counter-clockwise triangles stay so on their way to the window if s, t and forward are as left-handed as x, y and
@@ -33,6 +40,8 @@ GLenum frontFace(const shading::View& view, bool mirrored) {
 bool cullsBackFaces(const Material& material) {
   return !material.doubleSided && material.constants.kind.x != shading::kSurfaceGlass;
 }
+
+bool transmits(const Material& material) { return material.constants.kind.x == shading::kSurfaceGlass; }
 
 bool isClosed(const Mesh& mesh) {
   const std::array meshes = {&mesh};
@@ -58,6 +67,19 @@ bool mayHaveAreaLights(const Scene& scene) {
 // frame of builtin:mirrors?count=5 at 320x180.
 std::string areaLightDefines(const Snapshot& snapshot) {
   return mayHaveAreaLights(*snapshot.scene) ? "#define AREA_LIGHTS\n" : "";
+}
+
+// Of everything that a mirrored view may clip.
+std::string clipDefines(const Technique& technique) {
+  return lookupOf(technique.lookup).isPlanar ? "#define CLIP_PLANE\n" : "";
+}
+
+bool isClipped(const gpu::PassConstants& pass) { return glm::vec3(pass.clip) != glm::vec3(0.0f); }
+
+// Whatever lies in the plane of a mirrored view counts as behind it: the reflector would hide what it reflects.
+bool isClippedAway(const Bounds& box, const gpu::PassConstants& pass) {
+  const float size = glm::length(box.extent());
+  return isClipped(pass) && isBehindPlane(box, glm::vec3(pass.clip), pass.clip.w - kPlanarThickness * size);
 }
 
 std::string conductorDefines(const Material& material) {
@@ -135,6 +157,7 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   beginShadows();
   uploadLights();
   uploadPasses(passes);
+  uploadProbes();
   resources_->bindScene();
   resources_->bindReflection(technique_);
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLightBlock, lights_.id());
@@ -215,28 +238,53 @@ std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, in
   for (const Draw& draw : draws_) {
     const int probe = snapshot_->instances[draw.instance].probe;
     const bool isHidden = probe != kNoProbe && probe == hiddenProbe && !draw.isCapturedFromInside;
-    const bool isOutside = isOutsidePart(snapshot_->instances[draw.instance].worldBounds,
-                                         glm::vec3(passes_[pass].view.origin), part);
+    const bool isOutside =
+        isOutsidePart(snapshot_->instances[draw.instance].worldBounds, glm::vec3(passes_[pass].view.origin), part);
     if (!isHidden && !isOutside && isVisible(draw, pass)) visible.push_back(&draw);
   }
   return visible;
 }
 
 void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes) {
+  const bool clips = isClipped(passes_[pass]);
   gl_.Disable(GL_CULL_FACE);
+  if (clips) gl_.Enable(GL_CLIP_DISTANCE0);
   Binder binder(*this, passes_[pass].view);
   for (const Draw* draw : draws) {
-    const int probe = reflections_[draw->instance].probe;
-    // A map may not be read while it is captured: by its owners, captured from inside, nor by what it is nearest to.
-    const bool isCaptured = probe != kNoProbe && probe == probes.hidden;
-    const bool isOwner = isCaptured && snapshot_->instances[draw->instance].probe == probe;
-    const bool showsProbe = !isCaptured && draw->showingProbe != 0 && probes.shown[static_cast<std::size_t>(probe)];
-    if (showsProbe) probes.maps->bind(probe);
+    const bool isCaptured = probes.hidden != kNoProbe && snapshot_->instances[draw->instance].probe == probes.hidden;
+    const GLuint program = bindReflection(*draw, probes);
     if (draw->backFaces != 0) drawBackFaces(*draw, pass, binder);
-    binder.bind(*draw, showsProbe ? draw->showingProbe : draw->showingEnvironment,
-                isOwner ? Faces::back : facesOf(*draw, passes_[pass].view));
+    binder.bind(*draw, program, isCaptured ? Faces::back : facesOf(*draw, passes_[pass].view));
     gl_.DrawElements(GL_TRIANGLES, draw->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
   }
+  if (clips) gl_.Disable(GL_CLIP_DISTANCE0);  // other programs have no such distance
+}
+
+// Binds what the draw's specular lobe looks up, and returns the program that does. A map may not be read while it is
+// captured: by its owners, captured from inside, nor by what it is nearest to.
+GLuint ScenePass::bindReflection(const Draw& draw, const ShownProbes& probes) const {
+  const Reflection& reflection = reflections_[draw.instance];
+  const auto isShown = [&](int probe) {
+    return probe != kNoProbe && probe != probes.hidden && probes.shown[static_cast<std::size_t>(probe)];
+  };
+  if (probes.mirroredViews != nullptr && (*probes.mirroredViews)[draw.instance] != 0) {
+    gl_.BindTextureUnit(gpu::kPlanarUnit, (*probes.mirroredViews)[draw.instance]);
+    if (draw.showingProbe != 0 && isShown(reflection.probe)) bindProbe(*probes.maps, reflection.probe);
+    return draw.showingMirroredView;
+  }
+  const bool showsFirst = draw.showingProbe != 0 && isShown(reflection.probe);
+  const bool showsSecond = draw.showingBlend != 0 && isShown(reflection.second);
+  if (!showsFirst && !showsSecond) return draw.showingEnvironment;
+  bindProbe(*probes.maps, showsFirst ? reflection.probe : reflection.second);
+  if (!showsFirst || !showsSecond) return draw.showingProbe;
+  probes.maps->bindSecond(reflection.second);
+  if (probeSlots_.size() > 0) probeSlots_.bind(gpu::kSecondProbeBlock, static_cast<std::size_t>(reflection.second));
+  return draw.showingBlend;
+}
+
+void ScenePass::bindProbe(const ProbeMaps& maps, int probe) const {
+  maps.bind(probe);
+  if (probeSlots_.size() > 0) probeSlots_.bind(gpu::kProbeBlock, static_cast<std::size_t>(probe));
 }
 
 // The surfaces whose back faces the draw's fragments read: all of the object that it is a part of, and of nothing else,
@@ -256,10 +304,13 @@ std::vector<const ScenePass::Draw*> ScenePass::readBehind(const Draw& draw, std:
 void ScenePass::drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder) {
   const glm::vec4& samples = passes_[pass].image;
   const BackFaces::Drawing drawing = backFaces_->beginDraws(static_cast<int>(samples.x), static_cast<int>(samples.y));
+  const bool clips = isClipped(passes_[pass]);
+  if (clips) gl_.Disable(GL_CLIP_DISTANCE0);  // a way inside may end behind the plane
   for (const Draw* part : readBehind(draw, pass)) {
     binder.bind(*part, part->backFaces, Faces::back);
     gl_.DrawElements(GL_TRIANGLES, part->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
   }
+  if (clips) gl_.Enable(GL_CLIP_DISTANCE0);
 }
 
 // Closed glass is drawn without its back faces as long as they can't be seen.
@@ -302,9 +353,12 @@ void ScenePass::showShapes() {
 // order decides which of two coinciding surfaces is seen, and how many fragments pass.
 void ScenePass::buildDraws(const Snapshot& snapshot) {
   const int environmentSize = resources_->filterEnvironment(technique_.filter, device_.programs);
-  const std::string settings = techniqueDefines(technique_) + shadowDefines(snapshot) + areaLightDefines(snapshot);
+  const std::string settings =
+      techniqueDefines(technique_) + shadowDefines(snapshot) + areaLightDefines(snapshot) + clipDefines(technique_);
   const std::string environmentLevels = filterDefines(technique_.filter, environmentSize);
-  const std::string probeLevels = filterDefines(technique_.filter, technique_.resolution);
+  const Lookup& lookup = lookupOf(technique_.lookup);
+  const std::string lookupDefines =
+      filterDefines(mapFilter(technique_), technique_.resolution) + lookup.defines(technique_.lookup);
   const EnvironmentSource source = environmentSource(snapshot.environment(), technique_.textureFilter);
   background_ = device_.programs.background(source);
   drawnEnvironment_ = snapshot.environmentIndex;
@@ -315,7 +369,8 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
     const SurfaceVariant variant = variantOf(snapshot, instance);
     const std::string defines = settings + refractionDefines(technique_, material) + conductorDefines(material);
     const bool hasBackFaces = readsBackFaces(technique_, material);
-    const bool hasProbe = reflectionOf(technique_, snapshot, instance).source == ReflectionSource::probe;
+    const Reflection reflection = reflectionOf(technique_, snapshot, instance);
+    const bool hasProbe = reflection.source == ReflectionSource::probe;
     draws_.push_back(
         {.variant = variant,
          .material = instance.material,
@@ -323,7 +378,16 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
          .source = instance.mesh,
          .mesh = &resources_->mesh(i, instance.mesh, hasBackFaces),
          .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source, defines + environmentLevels),
-         .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, defines + probeLevels) : 0,
+         .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, defines + lookupDefines) : 0,
+         .showingBlend = reflection.second != kNoProbe
+                             ? device_.programs.surfaceShowingProbe(variant, defines + lookupDefines + kBlendDefines)
+                             : 0,
+         .showingMirroredView =
+             !(lookup.isPlanar && instance.probe >= 0) ? 0
+             : transmits(material)
+                 ? device_.programs.surfaceShowingProbe(variant, defines + lookupDefines + kPlanarDefines)
+                 : device_.programs.surfaceShowingEnvironment(variant, source,
+                                                              defines + environmentLevels + kPlanarDefines),
          .cullsBackFaces = cullsBackFaces(material),
          .isClosedGlass = isSolidGlass(material) && !material.doubleSided && isClosed(*instance.mesh),
          .isCapturedFromInside = isCapturedFromInside(technique_, material),
@@ -341,6 +405,7 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
 SurfaceVariant ScenePass::variantOf(const Snapshot& snapshot, const SnapshotInstance& instance) const {
   SurfaceVariant variant = resources_->variantOf(instance.material, *instance.mesh, technique_.textureFilter);
   variant.reflects = reflectionOf(technique_, snapshot, instance).source != ReflectionSource::nothing;
+  if (lookupOf(technique_.lookup).isSingleView && !instance.mesh->uvs[0].empty()) variant.attributes = true;
   return variant;
 }
 
@@ -348,13 +413,22 @@ void ScenePass::uploadInstances() {
   const std::vector<SnapshotInstance>& instances = snapshot_->instances;
   if (instanceSlots_.size() != instances.size())
     instanceSlots_ = UniformSlots<gpu::InstanceConstants>(device_.context, instances.size());
-  for (std::size_t i = 0; i < instances.size(); ++i) instanceSlots_.set(i, constantsOf(instances[i]));
+  for (std::size_t i = 0; i < instances.size(); ++i) instanceSlots_.set(i, constantsOf(instances[i], reflections_[i]));
   instanceSlots_.upload();
 }
 
 void ScenePass::uploadLights() {
   write(gl_, castsShadows(*snapshot_) ? shadows_->lights() : snapshot_->lights, lightCount_, lights_);
   write(gl_, snapshot_->areaLights, areaLightCount_, areaLights_);
+}
+
+void ScenePass::uploadProbes() {
+  const std::vector<Probe>& probes = snapshot_->probes;
+  if (!lookupOf(technique_.lookup).readsProbe || probes.empty()) return;
+  if (probeSlots_.size() != probes.size())
+    probeSlots_ = UniformSlots<gpu::ProbeConstants>(device_.context, probes.size());
+  for (std::size_t i = 0; i < probes.size(); ++i) probeSlots_.set(i, probeConstants(*snapshot_, probes[i]));
+  probeSlots_.upload();
 }
 
 void ScenePass::uploadPasses(const std::vector<gpu::PassConstants>& passes) {
@@ -375,8 +449,9 @@ void ScenePass::beginPass(std::size_t pass, const RenderTarget& target) const {
 }
 
 bool ScenePass::isVisible(const Draw& draw, std::size_t pass) const {
-  return draw.mesh->indexCount > 0 &&
-         !isOutsideFrustum(snapshot_->instances[draw.instance].worldBounds, passes_[pass].view);
+  const Bounds& bounds = snapshot_->instances[draw.instance].worldBounds;
+  return draw.mesh->indexCount > 0 && !isOutsideFrustum(bounds, passes_[pass].view) &&
+         !isClippedAway(bounds, passes_[pass]);
 }
 
 // Last, where nothing was drawn: no colour needs clearing and hidden sky costs nothing.

@@ -22,9 +22,11 @@ class ProbeMaps;
 
 // What a pass sees of the probes.
 struct ShownProbes {
-  const ProbeMaps* maps;           // may be null if none is shown
-  const std::vector<bool>& shown;  // by probe: its map, not the environment
-  int hidden = kNoProbe;           // the probe that is captured: its owners are left out
+  const ProbeMaps* maps;                               // may be null if none is shown
+  const std::vector<bool>& shown;                      // by probe: its map, not the environment
+  int hidden = kNoProbe;                               // the probe that is captured: its owners are left out
+  const std::vector<GLuint>* mirroredViews = nullptr;  // by instance: the texture of the mirrored view that a flat
+                                                       // reflector shows, 0 for none; null if nothing shows one
 };
 
 class ScenePass {
@@ -54,7 +56,9 @@ class ScenePass {
     std::shared_ptr<const Mesh> source;
     const GpuMesh* mesh;
     GLuint showingEnvironment;
-    GLuint showingProbe;  // 0 for instances that look no probe's cube map up
+    GLuint showingProbe;         // 0 for instances that look no probe's cube map up
+    GLuint showingBlend;         // 0 for instances that don't look up two
+    GLuint showingMirroredView;  // 0 for instances that never do
     bool cullsBackFaces;
     bool isClosedGlass;         // its back faces are seen from inside only
     bool isCapturedFromInside;  // by its own probe
@@ -75,6 +79,9 @@ class ScenePass {
   void uploadInstances();
   void uploadLights();
   void uploadPasses(const std::vector<gpu::PassConstants>& passes);
+  void uploadProbes();
+  GLuint bindReflection(const Draw& draw, const ShownProbes& probes) const;
+  void bindProbe(const ProbeMaps& maps, int probe) const;
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const Draw& draw, std::size_t pass) const;
   std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const;
@@ -97,6 +104,7 @@ class ScenePass {
   std::vector<Draw> draws_;
   UniformSlots<gpu::InstanceConstants> instanceSlots_;
   UniformSlots<gpu::PassConstants> passSlots_;
+  UniformSlots<gpu::ProbeConstants> probeSlots_;  // only for lookups that read them
   std::size_t lightCount_ = 0;
   std::size_t areaLightCount_ = 0;
   gl::Buffer lights_;

@@ -7,6 +7,7 @@
 
 #include "bench/commands/commands.h"
 #include "bench/presets.h"
+#include "raster/lookup.h"
 #include "raster/refresh.h"
 
 namespace pb {
@@ -51,6 +52,8 @@ int printAxis(const std::string& name) {
   if (axis.name == "preset") printPresets();
   if (axis.name == "refresh")
     for (const RefreshPolicy& p : refreshPolicies()) printValue(p.name, p.parameters, p.description, p.source);
+  if (axis.name == "lookup")
+    for (const Lookup& l : lookups()) printValue(l.name, l.parameters, l.description, l.source);
   return 0;
 }
 

@@ -9,5 +9,10 @@ namespace pb {
 SpecReader lookupReader(const Spec& spec);
 
 Lookup infiniteLookup();
+Lookup sphereProxyLookup();
+Lookup boxProxyLookup();
+Lookup distanceImpostorLookup();
+Lookup planarLookup();
+Lookup singleViewLookup();
 
 }  // namespace pb

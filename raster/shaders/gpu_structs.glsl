@@ -5,6 +5,7 @@ struct PassConstants {
   View view;
   vec4 image;   // x width and y height in samples, z largest radiance that the colour format holds
   vec4 lights;  // x number of punctual lights, y of area lights
+  vec4 clip;    // of mirrored views: only points with dot(xyz, p) + w >= 0 are drawn; 0 of all others
 };
 
 struct SceneConstants {
@@ -18,6 +19,14 @@ struct InstanceConstants {
   vec4 values;        // x multiplies the mesh's UV per metre, z id (exact up to 2^24), w -1 if the
                       // transform mirrors, else 1
   vec4 volume;        // x metres in a unit of object space (mean of the directions)
+};
+
+// What a probe shows, for lookups that know where it is.
+struct ProbeConstants {
+  vec4 position;  // w near plane of its faces, metres
+  vec4 boxLower;  // the box that stands for the surroundings; w radius of the sphere that does
+  vec4 boxUpper;
+  vec4 right;  // xyz, of its single view
 };
 
 // One face of a shadow map.
@@ -34,6 +43,8 @@ const int kInstanceBlock = 2;
 const int kMaterialBlock = 3;
 const int kLobeBlock = 4;
 const int kShadowPassBlock = 5;
+const int kProbeBlock = 6;
+const int kSecondProbeBlock = 7;
 // Shader storage blocks.
 const int kLightBlock = 0;
 const int kSmoothingGroupBlock = 1;
@@ -52,5 +63,9 @@ const int kBackFaceUnit = 4;
 const int kEnvironmentLevelsUnit = 5;
 const int kMaterialUnit = 6;
 const int kShadowUnit = 11;
-const int kTextureUnits = 12;
+const int kProbeDepthUnit = 12;
+const int kSecondProbeUnit = 13;
+const int kSecondProbeDepthUnit = 14;
+const int kPlanarUnit = kSecondProbeUnit;  // owners of a probe don't blend two
+const int kTextureUnits = 15;
 const int kFilterSourceUnit = kMaterialUnit;  // of the filters of cube maps; draws bind their materials anew

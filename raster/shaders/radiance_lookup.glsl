@@ -1,8 +1,9 @@
-// Radiance that arrives from a direction: of the surface's cube map if PROBE_LOOKUP, else of the environment.
+// Radiance that arrives at a point from a direction: of the surface's cube map if PROBE_LOOKUP, else of the environment.
 //
 // Variants by defines: ROUGH_LOBE for materials whose lobe is wider than a mirror's, with SMOOTH_TEXELS if not everywhere;
 // one of FILTER_GGX (number of levels above level 0) and FILTER_BOX (texels along an edge of level 0) if the cube map is
-// filtered, none for the technique filter = none.
+// filtered, none for the technique filter = none; BLENDED_PROBES for surfaces between two probes, and those of
+// lookup_direction.glsl.
 #include "raster/shaders/gloss_lod.glsl"
 
 #if defined(ROUGH_LOBE) && (defined(FILTER_GGX) || defined(FILTER_BOX))
@@ -10,21 +11,41 @@
 #endif
 
 #ifdef PROBE_LOOKUP
-layout(binding = kProbeUnit) uniform samplerCube probe;
-vec3 radianceAlong(vec3 d) { return vec3(textureLod(probe, d, 0.0f)); }
+#ifdef SINGLE_VIEW
+#define PROBE_SAMPLER sampler2D
+#else
+#define PROBE_SAMPLER samplerCube
+#endif
+layout(binding = kProbeUnit) uniform PROBE_SAMPLER probe;
+#ifdef BLENDED_PROBES
+layout(binding = kSecondProbeUnit) uniform PROBE_SAMPLER secondProbe;
+#endif
+#include "raster/shaders/lookup_direction.glsl"
+
+#ifdef SINGLE_VIEW
+vec3 texelAlong(sampler2D map, vec3 st, float lod) { return vec3(textureLod(map, vec2(st), lod)); }
+#else
+vec3 texelAlong(samplerCube map, vec3 d, float lod) { return vec3(textureLod(map, d, lod)); }
+#endif
+
+vec3 radianceOfLevel(vec3 from, vec3 d, float lod) {
+  vec3 radiance = texelAlong(probe, FIRST_DIRECTION(from, d), lod);
+#ifdef BLENDED_PROBES
+  radiance = mix(radiance, texelAlong(secondProbe, SECOND_DIRECTION(from, d), lod), instance.volume.y);
+#endif
+  return radiance;
+}
+vec3 radianceAlong(vec3 from, vec3 d) { return radianceOfLevel(from, d, 0.0f); }
 #else
 #include "raster/shaders/environment_lookup.glsl"
-vec3 radianceAlong(vec3 d) { return environmentAlong(d); }
+vec3 radianceAlong(vec3 from, vec3 d) { return environmentAlong(d); }
+#ifdef FILTERED_LOOKUP
+layout(binding = kEnvironmentLevelsUnit) uniform samplerCube environmentLevels;
+vec3 radianceOfLevel(vec3 from, vec3 d, float lod) { return vec3(textureLod(environmentLevels, d, lod)); }
+#endif
 #endif
 
 #ifdef FILTERED_LOOKUP
-#ifdef PROBE_LOOKUP
-vec3 radianceOfLevel(vec3 d, float lod) { return vec3(textureLod(probe, d, lod)); }
-#else
-layout(binding = kEnvironmentLevelsUnit) uniform samplerCube environmentLevels;
-vec3 radianceOfLevel(vec3 d, float lod) { return vec3(textureLod(environmentLevels, d, lod)); }
-#endif
-
 float lobeLod(float alpha) {
 #ifdef FILTER_BOX
   return boxLod(alpha, FILTER_BOX);
@@ -34,15 +55,16 @@ float lobeLod(float alpha) {
 }
 #endif
 
-// Mean radiance over a lobe of that alpha around d, as the technique's filter has it; smooth lobes see one direction.
-vec3 lobeRadiance(vec3 d, float alpha) {
+// Mean radiance that arrives at a point over a lobe of that alpha around d, as the technique's filter has it; smooth
+// lobes see one direction.
+vec3 lobeRadiance(vec3 from, vec3 d, float alpha) {
 #ifdef FILTERED_LOOKUP
 #ifdef SMOOTH_TEXELS
-  if (alpha == 0.0f) return radianceAlong(d);
+  if (alpha == 0.0f) return radianceAlong(from, d);
 #endif
-  return radianceOfLevel(d, lobeLod(alpha));
+  return radianceOfLevel(from, d, lobeLod(alpha));
 #else
-  return radianceAlong(d);
+  return radianceAlong(from, d);
 #endif
 }
 

@@ -4,6 +4,7 @@
 // REFRACTION_TWO_INTERFACE, REFRACTION_CUBEMAP_BACKFACE or REFRACTION_THICK_SLAB, or none for one interface.
 
 struct RefractedRay {
+  vec3 origin;         // where it leaves
   vec3 direction;      // unit, to look up; zero where nothing is transmitted (beyond the critical angle)
   vec3 tint;           // of interfaces after the first
   float lengthMetres;  // of the way inside
@@ -58,7 +59,8 @@ vec3 directionBehind(vec3 d, vec3 n, float ior) {
 RefractedRay throughBothInterfaces(Surface s, vec3 toViewer, vec3 inside, float ior) {
   RefractedRay ray;
   ray.lengthMetres = estimatedLengthInside(s, toViewer, ior);
-  ray.direction = directionBehind(inside, backNormalAt(s.position + ray.lengthMetres * inside), ior);
+  ray.origin = s.position + ray.lengthMetres * inside;
+  ray.direction = directionBehind(inside, backNormalAt(ray.origin), ior);
   // What the second interface reflects inwards leaves elsewhere, and is assumed to show the same radiance.
   ray.tint = s.transmission * s.baseColor;
   return ray;
@@ -68,6 +70,7 @@ RefractedRay throughBothInterfaces(Surface s, vec3 toViewer, vec3 inside, float 
 // The one ray that stands for all light that the surface of that index of refraction transmits to the viewer.
 RefractedRay refractedRay(Surface s, vec3 toViewer, float ior) {
   RefractedRay ray;
+  ray.origin = s.position;
   ray.tint = vec3(1.0f);
   ray.lengthMetres = 0.0f;
 #ifdef REFRACTION_THIN_WALL
@@ -79,7 +82,10 @@ RefractedRay refractedRay(Surface s, vec3 toViewer, float ior) {
   if (gl_FrontFacing) ray = throughBothInterfaces(s, toViewer, ray.direction, ior);
 #elif defined(REFRACTION_THICK_SLAB)
   vec3 exit = s.position + slabExitOffset(-toViewer, s.normal, ior, ray.lengthMetres);
-  if (gl_FrontFacing) ray.direction = safeNormalize(exit - vec3(pass.view.origin));
+  if (gl_FrontFacing) {
+    ray.origin = exit;
+    ray.direction = safeNormalize(exit - vec3(pass.view.origin));
+  }
 #endif
 #endif
   return ray;
@@ -87,7 +93,7 @@ RefractedRay refractedRay(Surface s, vec3 toViewer, float ior) {
 
 vec3 radianceOf(Surface s, RefractedRay ray, float ior) {
   return ray.tint * transmittance(s.absorption, ray.lengthMetres) *
-         lobeRadiance(ray.direction, transmittedAlpha(s.alpha, ior, isThinWalled(s)));
+         lobeRadiance(ray.origin, ray.direction, transmittedAlpha(s.alpha, ior, isThinWalled(s)));
 }
 
 // Radiance that arrives through the surface if its index of refraction is `ior`.

@@ -47,5 +47,8 @@ void main() {
   gl_Position = shadowClipPosition(shadowFace, worldPosition);
 #else
   gl_Position = clipFromWorldPosition(pass.view, worldPosition);
+#ifdef CLIP_PLANE
+  gl_ClipDistance[0] = dot(vec3(pass.clip), worldPosition) + pass.clip.w;
+#endif
 #endif
 }

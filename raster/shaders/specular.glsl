@@ -14,13 +14,27 @@ bool hasSplitSum(Surface s) {
   return s.kind == kSurfaceGlossy || (s.kind == kSurfaceGlass && !isThinWalled(s) && gl_FrontFacing);
 }
 
+#ifdef PLANAR_LOOKUP
+layout(binding = kPlanarUnit) uniform sampler2D mirroredView;
+#endif
+
+// Of a flat reflector, the mirrored view's sample at the same place: of its plane whatever its normal map, and of one
+// direction whatever its roughness.
+vec3 reflectedRadiance(Surface s, vec3 toViewer) {
+#ifdef PLANAR_LOOKUP
+  return vec3(texelFetch(mirroredView, ivec2(gl_FragCoord.xy), 0));
+#else
+  return lobeRadiance(s.position, reflectedDirection(-toViewer, s.normal), s.alpha);
+#endif
+}
+
 vec3 specularRadiance(Surface s, vec3 toViewer, vec2 dfg) {
   float relativeIor = gl_FrontFacing ? s.ior : 1.0f / s.ior;
   SpecularWeights weights = specularWeights(s, max(dot(s.normal, toViewer), 0.0f), relativeIor, kFresnelLaw);
 #ifdef FILTERED_LOOKUP
   if (hasSplitSum(s)) weights.reflection = splitSum(s, dfg);
 #endif
-  vec3 sum = weights.reflection * lobeRadiance(reflectedDirection(-toViewer, s.normal), s.alpha);
+  vec3 sum = weights.reflection * reflectedRadiance(s, toViewer);
   if (s.kind == kSurfaceGlass) sum += refractedRadiance(s, toViewer, weights.refraction);
   return sum;
 }

@@ -77,6 +77,7 @@ inline vec4 texelFetch(sampler2DArray image, ivec3 p, int /*level*/) {
 #include "scenes/shading/fresnel.glsl"
 #include "scenes/shading/light.glsl"
 #include "scenes/shading/microfacet.glsl"
+#include "scenes/shading/proxy.glsl"
 #include "scenes/shading/screen.glsl"
 #include "scenes/shading/srgb.glsl"
 #include "scenes/shading/surface.glsl"

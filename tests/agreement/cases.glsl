@@ -180,4 +180,8 @@ AGREEMENT_CASE(57, vec4(screenRadiance(kScreenMelt, vec2(a.x, a.y), 1.33333333f,
 AGREEMENT_CASE(58, vec4(screenRadiance(kScreenTwist, vec2(a.x, a.y), 1.33333333f, 6.28318531f * b.x), 0.0f))
 AGREEMENT_CASE(59, vec4(screenRadiance(kScreenRipples, vec2(a.x, a.y), 1.33333333f, 6.28318531f * b.x), 0.0f))
 AGREEMENT_CASE(60, vec4(screenRadiance(kScreenRings, vec2(a.x, a.y), 1.33333333f, 6.28318531f * b.x), 0.0f))
+AGREEMENT_CASE(61, vec4(sphereProxyDirection(2.0f * vec3(a), unitVector(b), 1.0f + a.w), 0.0f))
+AGREEMENT_CASE(62, vec4(boxProxyDirection(vec3(a), unitVector(b), vec3(-0.5f), vec3(1.5f), vec3(b)), 0.0f))
+AGREEMENT_CASE(63, vec4(impostorDirection(vec3(a), vec3(b), a.w), impostorExcess(vec3(b), a.w, b.w)))
+AGREEMENT_CASE(64, vec4(impostorSecant(vec2(a.x, -0.1f - a.y), vec2(1.0f + b.x, b.y)), singleViewCoordinates(vec2(a.z, a.w), vec2(b.z, b.w)), 0.0f))
 AGREEMENT_CASES_END

@@ -150,6 +150,11 @@ const std::vector<Row> kRows = {
     {59, "screenRadiance, ripples", kSphereTraced, 1e-3,
      "normals, as said above; steps at silhouettes and in the glow"},
     {60, "screenRadiance, rings", kSphereTraced, 1e-3, "normals, as said above; steps at silhouettes and in the glow"},
+    {61, "sphereProxyDirection", 2e-3, 2e-3,
+     "at the sphere's outline the slope is infinite: a root of a difference of 1e-6; rays beside it jump"},
+    {62, "boxProxyDirection", 1e-5, 0, "divisions by components of a direction"},
+    {63, "impostorDirection, impostorExcess", kArithmetic, 0, "products"},
+    {64, "impostorSecant, singleViewCoordinates", 1e-5, 0, "a division by at least 0.1"},
 };
 
 std::vector<glm::vec4> makeInputs() {
