@@ -13,6 +13,7 @@
 #include "bench/interrupt.h"
 #include "bench/statistics.h"
 #include "raster/captured_faces.h"
+#include "raster/probe_layout.h"
 #include "raster/refresh.h"
 #include "scenes/error.h"
 
@@ -258,19 +259,23 @@ RenderCount modelRenders(const Technique& technique, const Snapshots& snapshots)
   history.technique = technique;
   double faces = 0;
   // The first frame captures everything; the second pass over the block is the one that repeats for ever.
-  advance(history, dueFaces(technique.refresh, history, *snapshots[0]), *snapshots[0]);
+  ProbeLayout layout(technique);
+  const Snapshot& first = layout.apply(*snapshots[0]);
+  advance(history, dueFaces(technique.refresh, history, first), first);
   for (int pass = 0; pass < 2; ++pass) {
     faces = 0;
     for (std::size_t i = 1; i < snapshots.size(); ++i) {
-      const std::vector<ProbeFace> due = dueFaces(technique.refresh, history, *snapshots[i]);
+      const Snapshot& snapshot = layout.apply(*snapshots[i]);
+      const std::vector<ProbeFace> due = dueFaces(technique.refresh, history, snapshot);
       faces += static_cast<double>(due.size());
-      advance(history, due, *snapshots[i]);
+      advance(history, due, snapshot);
     }
   }
   RenderCount count;
   count.perFrame = 1 + technique.bounces * faces / static_cast<double>(snapshots.size() - 1);
   const bool everyFrame = technique.refresh.name == "every-frame";
-  count.formula = fmt::format("{} = {:.4g}", everyFrame ? "6*N*B+1" : "1+B*faces", count.perFrame);
+  count.formula = fmt::format(
+      "{} = {:.4g}", everyFrame ? fmt::format("{}*N*B+1", capturedFaceCount(technique)) : "1+B*faces", count.perFrame);
   return count;
 }
 

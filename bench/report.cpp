@@ -106,6 +106,8 @@ Table errorTable(const Section& section) {
   addErrors(quantities, section, Region::whole);
   quantities.push_back(
       {{"face age"}, [](const Sequence& sequence) { return formatSignificant(meanFaceAge(sequence)); }});
+  quantities.push_back(
+      {{"oldest face"}, [](const Sequence& sequence) { return formatSignificant(largestFaceAge(sequence)); }});
   return tableOfAll(section, quantities);
 }
 
@@ -360,7 +362,7 @@ constexpr char kLegend[] =
     "captures; times by pass come from frames that were taken apart, which costs some of their overlap. A render is "
     "one view of "
     "the scene, a cube face or the final image; N probes, B bounce iterations. Face age counts frames since the "
-    "capture.\n\n";
+    "capture, in the mean over all faces and of the oldest one.\n\n";
 
 void appendAll(Table& table, const std::string& prefix, const auto& pairs) {
   for (const auto& [name, value] : pairs) table.rows.push_back({prefix + name, value});

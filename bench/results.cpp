@@ -76,7 +76,6 @@ constexpr Region kRegions[] = {
     {"cost", "cost", ""},
     {"reported_cost", "reported_cost", ""},
     {"counters", "counter", ""},
-    {"face_age_frames", "probe", "face_age_frames"},
     {"coats_of_probes", "probe", "coats"},
 };
 
@@ -88,6 +87,10 @@ void appendCell(const CellResult& cell, const std::vector<std::string>& axes, st
     const Json values = json.value(region.jsonKey, Json());  // reported_cost is there for external techniques only
     if (!values.is_null()) appendRows(fmt::format("{}{},", prefix, region.name), region.metric, values, csv);
   }
+  for (std::size_t probe = 0; probe < cell.faceAgeFrames.size(); ++probe)
+    if (const std::optional<AgeSummary> ages = summaryOf({cell.faceAgeFrames[probe]}))
+      appendRows(prefix + "probe,", fmt::format("face_age_frames.{}", probe),
+                 {{"mean", ages->mean}, {"max", ages->largest}}, csv);
   for (Json entry : json.at("materials")) {
     const std::string region = csvField("material " + entry.at("material").get<std::string>());
     entry.erase("material");
@@ -102,6 +105,19 @@ std::optional<double> noiseOf(const CellResult& cell) {
 }
 
 }  // namespace
+
+std::optional<AgeSummary> summaryOf(const std::vector<FaceAges>& ages) {
+  std::int64_t sum = 0, count = 0, largest = 0;
+  for (const FaceAges& faces : ages)
+    for (const std::int64_t age : faces) {
+      if (age < 0) continue;
+      sum += age;
+      ++count;
+      largest = std::max(largest, age);
+    }
+  if (count == 0) return std::nullopt;
+  return AgeSummary{static_cast<double>(sum) / static_cast<double>(count), largest};
+}
 
 std::optional<double> metricValue(const Metrics& metrics, const std::string& key) {
   const auto& table = metricTable();

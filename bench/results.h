@@ -2,6 +2,7 @@
 // results.csv.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -74,6 +75,15 @@ struct ReportedCost {
 // The one axis of cells of external techniques; its value is the technique's name.
 inline constexpr char kExternalAxis[] = "external";
 
+// Frames since the faces of a probe were captured, GL order; -1 for those that are never captured.
+using FaceAges = std::array<std::int64_t, 6>;
+// Over the faces that are captured; nullopt if none is.
+struct AgeSummary {
+  double mean;
+  std::int64_t largest;
+};
+std::optional<AgeSummary> summaryOf(const std::vector<FaceAges>& ages);
+
 struct CellResult {
   std::string scene, camera;
   int frame = 0;
@@ -88,8 +98,8 @@ struct CellResult {
   // FrameCounters of this frame: "faces_captured", "draws", "triangles", "fragments", "probe_bytes", "texels_filtered";
   // what serves the coats of instances without a probe of their own: "coats_from_probe", "coats_from_environment".
   std::vector<std::pair<std::string, std::int64_t>> counters;
-  std::vector<double> faceAgeFrames;  // mean age of the faces of each probe
-  std::vector<int> coatsOfProbes;     // by probe: instances whose coat it serves, without one of their own
+  std::vector<FaceAges> faceAgeFrames;  // of each probe
+  std::vector<int> coatsOfProbes;       // by probe: instances whose coat it serves, without one of their own
   std::vector<MaterialError> materials;
 
   // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in a run and in --only.

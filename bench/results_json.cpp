@@ -109,12 +109,9 @@ std::optional<CostResult> costFromJson(const Json& json) {
 
 Json reportedCostToJson(const ReportedCost& cost) {
   const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
-  return {{"program", cost.program},
-          {"frames", cost.frames},
-          {"frame_ms", cost.frameMs},
-          {"frame_ms_low", cost.frameMsLow},
-          {"frame_ms_high", cost.frameMsHigh},
-          {"plain_ms", orNull(cost.plainMs)},
+  return {{"program", cost.program},           {"frames", cost.frames},
+          {"frame_ms", cost.frameMs},          {"frame_ms_low", cost.frameMsLow},
+          {"frame_ms_high", cost.frameMsHigh}, {"plain_ms", orNull(cost.plainMs)},
           {"ratio", orNull(cost.ratio())}};
 }
 
@@ -128,6 +125,25 @@ ReportedCost reportedCostFromJson(const Json& json) {
   cost.frameMsHigh = json.at("frame_ms_high").get<double>();
   if (const Json& plain = json.at("plain_ms"); !plain.is_null()) cost.plainMs = plain.get<double>();
   return cost;
+}
+
+Json faceAgesToJson(const std::vector<FaceAges>& ages) {
+  Json probes = Json::array();
+  for (const FaceAges& faces : ages) {
+    Json& probe = probes.emplace_back(Json::array());
+    for (const std::int64_t age : faces) probe.push_back(age < 0 ? Json() : Json(age));
+  }
+  return probes;
+}
+
+std::vector<FaceAges> faceAgesFromJson(const Json& json) {
+  std::vector<FaceAges> ages;
+  for (const Json& probe : json) {
+    FaceAges& faces = ages.emplace_back();
+    for (std::size_t face = 0; face < faces.size(); ++face)
+      faces[face] = probe.at(face).is_null() ? -1 : probe.at(face).get<std::int64_t>();
+  }
+  return ages;
 }
 
 constexpr Field<MaterialError, double> kMaterialNumbers[] = {
@@ -171,7 +187,7 @@ CellResult cellFromJson(const Json& json) {
   if (const auto reported = json.find("reported_cost"); reported != json.end())
     cell.reportedCost = reportedCostFromJson(*reported);
   cell.counters = countersFromJson(json.at("counters"));
-  cell.faceAgeFrames = json.at("face_age_frames").get<std::vector<double>>();
+  cell.faceAgeFrames = faceAgesFromJson(json.at("face_age_frames"));
   // Files from before they were recorded don't have them.
   if (const auto coats = json.find("coats_of_probes"); coats != json.end())
     cell.coatsOfProbes = coats->get<std::vector<int>>();
@@ -250,7 +266,7 @@ Json cellToJson(const CellResult& cell) {
   json["cost"] = costToJson(cell.cost);
   if (cell.reportedCost) json["reported_cost"] = reportedCostToJson(*cell.reportedCost);
   json["counters"] = countersToJson(cell.counters);
-  json["face_age_frames"] = cell.faceAgeFrames;
+  json["face_age_frames"] = faceAgesToJson(cell.faceAgeFrames);
   json["coats_of_probes"] = cell.coatsOfProbes;
   json["materials"] = materialsToJson(cell.materials);
   return json;

@@ -7,7 +7,6 @@
 #include <cassert>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <set>
 
 #include "bench/axes.h"
@@ -17,6 +16,7 @@
 #include "bench/noise.h"
 #include "bench/truth.h"
 #include "bench/version.h"
+#include "raster/probe_layout.h"
 #include "scenes/error.h"
 #include "scenes/image_io.h"
 
@@ -70,11 +70,9 @@ std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameStats
           {"coats_from_environment", stats.coats.fromEnvironment}};
 }
 
-std::vector<double> meanAges(const std::vector<std::array<std::int64_t, 6>>& ages) {
-  std::vector<double> means;
-  for (const auto& faces : ages)
-    means.push_back(static_cast<double>(std::accumulate(faces.begin(), faces.end(), std::int64_t{0})) / 6.0);
-  return means;
+int probeCount(const Technique& technique, const Snapshot& snapshot) {
+  ProbeLayout layout(technique);
+  return static_cast<int>(layout.apply(snapshot).probes.size());
 }
 
 // Letters, digits and a few signs stay; anything else would be a surprise in a file name.
@@ -216,7 +214,7 @@ class Runner {
       queue.run([this, &sequence, frame, stats, truth = truths.at(frame), rendered = raster.readImage()] {
         CellResult cell = makeCell(c_.suite, sequence, frame);
         cell.counters = namedCounters(stats);
-        cell.faceAgeFrames = meanAges(stats.faceAgeFrames);
+        cell.faceAgeFrames = stats.faceAgeFrames;
         cell.coatsOfProbes = stats.coats.ofProbes;
         finishCell(sequence, std::move(cell), *truth, rendered);
       });
@@ -321,7 +319,7 @@ class Runner {
     CostRequest request{makeCell(c_.suite, sequence, 0).sequenceKey(), sequence.technique, {}};
     const SuiteScene& scene = suiteScene(sequence.scene);
     request.snapshots.push_back(snapshot(sequence.scene, scene.startFrame()));
-    const int frames = blockFrames(sequence.technique, static_cast<int>(request.snapshots[0]->probes.size()),
+    const int frames = blockFrames(sequence.technique, probeCount(sequence.technique, *request.snapshots[0]),
                                    static_cast<int>(scene.frames.size()));
     for (int i = 1; i <= frames; ++i) request.snapshots.push_back(snapshot(sequence.scene, scene.startFrame() + i));
     return request;

@@ -102,10 +102,8 @@ std::optional<double> counterOf(const CellResult& cell, const std::string& name)
 }
 
 std::optional<double> faceAgeOf(const CellResult& cell) {
-  if (cell.faceAgeFrames.empty()) return std::nullopt;
-  double sum = 0;
-  for (const double age : cell.faceAgeFrames) sum += age;
-  return sum / static_cast<double>(cell.faceAgeFrames.size());
+  const std::optional<AgeSummary> ages = summaryOf(cell.faceAgeFrames);
+  return ages ? std::optional(ages->mean) : std::nullopt;
 }
 
 double meanError(const Sequence& sequence, Region region, const std::string& metric) {
@@ -124,6 +122,14 @@ double meanCounter(const Sequence& sequence, const std::string& name) {
 }
 
 double meanFaceAge(const Sequence& sequence) { return meanOver(sequence, faceAgeOf); }
+
+double largestFaceAge(const Sequence& sequence) {
+  double largest = kUndefined;  // fmax prefers the number
+  for (const CellResult* cell : sequence)
+    if (const std::optional<AgeSummary> ages = summaryOf(cell->faceAgeFrames))
+      largest = std::fmax(largest, static_cast<double>(ages->largest));
+  return largest;
+}
 
 bool isClearOfFloor(const Sequence& sequence, Region region) {
   return std::ranges::all_of(sequence, [&](const CellResult* cell) { return isClearOfFloor(*cell, region); });

@@ -224,7 +224,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Mutation{"/cells/3/cost/ratio", "-1", "at /cells/3/cost/ratio: "},      //
                     Mutation{"/cells/3/cost/capture_ms/0", "\"fast\"", "at /cells/3/cost/capture_ms/0: "},
                     Mutation{"/cells/3/counters/draws", "1.5", "at /cells/3/counters/draws: "},  //
-                    Mutation{"/cells/3/face_age_frames", "0", "at /cells/3/face_age_frames: "}));
+                    Mutation{"/cells/3/face_age_frames", "0", "at /cells/3/face_age_frames: "},
+                    Mutation{"/cells/3/face_age_frames/0", "[0, 0, 0]", "at /cells/3/face_age_frames/0: "}));
 
 TEST(ResultsSchema, CellThatStandsTwice_IsRefused) {
   Results results = samples::makeResults();
@@ -266,7 +267,8 @@ TEST(Csv, HasOneRowPerCellAndValue) {
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,cost,capture_ms.1,0.25\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,cost,shadow_ms,0.0625\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,counter,triangles,123456\n"));
-  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,face_age_frames.1,2.5\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,face_age_frames.1.max,5\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,face_age_frames.1.mean,3.0\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,coats.0,3\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:b,main,0,64,every-frame,1,whole,psnr,inf\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:b,main,0,64,every-frame,1,whole,ssim,\n"));

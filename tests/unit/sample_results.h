@@ -56,7 +56,7 @@ inline CellResult makeCell(const std::string& scene, int frame, const std::strin
   cell.maskFloor = {{"mse", 2e-9}, {"relmse", 1e-6}};
   cell.unbiased = {{"mse", error * error}};
   cell.counters = {{"faces_captured", 12}, {"draws", 40}, {"triangles", 123456}, {"probe_bytes", 2 * 1024 * 1024}};
-  cell.faceAgeFrames = {0.0, 2.5};
+  cell.faceAgeFrames = {{0, 0, 0, 0, 0, 0}, {5, 0, 2, -1, 5, 3}};
   cell.coatsOfProbes = {3, 0};
   return cell;
 }

@@ -78,7 +78,8 @@ TEST(Sections, MeanAndWorstAreOverTheFrames) {
   EXPECT_DOUBLE_EQ(largestError(sequence, Region::mask, "flip_hdr"), 8 * 0.1);
   EXPECT_EQ(meanCounter(sequence, "draws"), 40.0);
   EXPECT_TRUE(std::isnan(meanCounter(sequence, "unknown")));
-  EXPECT_EQ(meanFaceAge(sequence), 1.25);
+  EXPECT_EQ(meanFaceAge(sequence), 15.0 / 11.0) << "over the faces that are captured";
+  EXPECT_EQ(largestFaceAge(sequence), 5);
 }
 
 TEST(Sections, UndefinedErrors_AreLeftOutOfMeans) {
