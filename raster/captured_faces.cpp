@@ -1,5 +1,7 @@
 #include "raster/captured_faces.h"
 
+#include "raster/lookup.h"
+
 namespace pb {
 namespace {
 
@@ -8,6 +10,7 @@ constexpr int kTop = 2, kBottom = 3;
 }  // namespace
 
 FacePart capturedPart(const Technique& technique, int face) {
+  if (viewsOfProbe(technique) == 1) return FacePart::whole;
   const bool isSide = face != kTop && face != kBottom;
   switch (technique.faces) {
     case CapturedFaces::all:

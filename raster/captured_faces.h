@@ -8,7 +8,7 @@ namespace pb {
 
 enum class FacePart { whole, upperHalf, nothing };
 
-// Of face 0..5 (+X -X +Y -Y +Z -Z). The rest of the face shows the environment.
+// Of face 0..5 (+X -X +Y -Y +Z -Z). The rest of the face shows the environment. Single views are captured as a whole.
 FacePart capturedPart(const Technique& technique, int face);
 
 // Faces of which at least a part is captured, 4 to 6.

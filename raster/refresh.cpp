@@ -128,7 +128,10 @@ Bounds boundsOfOwners(const Snapshot& snapshot, const Probe& probe) {
 std::vector<int> probesShownBy(const Technique& technique, const Snapshot& snapshot, int instance) {
   const Reflection reflection =
       reflectionOf(technique, snapshot, snapshot.instances[static_cast<std::size_t>(instance)]);
-  return reflection.probe >= 0 ? std::vector<int>{reflection.probe} : std::vector<int>{};
+  std::vector<int> probes;
+  for (const int probe : {reflection.probe, reflection.second})
+    if (probe >= 0) probes.push_back(probe);
+  return probes;
 }
 
 std::int64_t ageOf(const RefreshHistory& history, const ProbeFace& face) {

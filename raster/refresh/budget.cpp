@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "raster/culling.h"
+#include "raster/probe_resolution.h"
 #include "raster/refresh/policies.h"
 
 namespace pb {
@@ -25,10 +26,7 @@ int readFaces(const Spec& spec) {
 // Height of the owners' bounding sphere in the final image, as a share of the image's height; 0 outside of the image.
 float screenSize(const Snapshot& snapshot, const Probe& probe) {
   const Bounds bounds = boundsOfOwners(snapshot, probe);
-  if (isOutsideFrustum(bounds, snapshot.camera)) return 0.0f;
-  const float tangent = glm::length(glm::vec3(snapshot.camera.down));  // of half the field of view
-  const float distance = glm::distance(bounds.centre(), glm::vec3(snapshot.camera.origin));
-  return std::min(0.5f * glm::length(bounds.extent()) / std::max(distance * tangent, 1e-30f), 1.0f);
+  return isOutsideFrustum(bounds, snapshot.camera) ? 0.0f : std::min(projectedSize(snapshot, bounds), 1.0f);
 }
 
 bool hasChanged(const RefreshHistory& history, std::size_t instance, std::uint64_t hash, std::int64_t since) {

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "raster/probe_resolution.h"
 #include "scenes/builtin/shapes.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
@@ -190,6 +192,38 @@ TEST(MeshParts, BeyondTheLimit_JoinTheirNearestLargerPart) {
   ASSERT_THAT(parts, SizeIs(2));
   EXPECT_THAT(parts[0]->indices, SizeIs(36));
   EXPECT_THAT(parts[1]->indices, SizeIs(72));
+}
+
+// A mirror ball of 2 m seen from `distance` under 90 degrees in a picture of 100 pixels in height.
+int resolutionAt(float distance, int most = 256) {
+  Snapshot snapshot = snapshotWith(makeTwoBoxes(), {vec3(0)});
+  const float edge = 2.0f / std::sqrt(3.0f);  // of the cube in the sphere
+  snapshot.instances[0].worldBounds = {vec3(-0.5f * edge), vec3(0.5f * edge)};
+  snapshot.camera = cubeFaceView(vec3(0, 0, distance), 5, 0.1f);
+  Technique technique;
+  technique.resolution = most;
+  technique.resolutionScale = ResolutionScale::distance;
+  return probeResolutions(technique, snapshot, 100).at(0);
+}
+
+// 100 pixels / distance are the ball's diameter.
+TEST(ProbeResolution, ByDistance_IsNoLessThanTheOwnersDiameterInPixels) {
+  EXPECT_EQ(resolutionAt(0.9f), 256) << "inside";
+  EXPECT_EQ(resolutionAt(0.99f * 100.0f / 64.0f), 128);
+  EXPECT_EQ(resolutionAt(1.01f * 100.0f / 64.0f), 64);
+  EXPECT_EQ(resolutionAt(1.01f * 100.0f / 32.0f), 32);
+  EXPECT_EQ(resolutionAt(1.01f * 100.0f / 16.0f), 16);
+}
+
+TEST(ProbeResolution, ByDistance_IsFromEightToTheTechniques) {
+  EXPECT_EQ(resolutionAt(1e6f), 8);
+  EXPECT_EQ(resolutionAt(0.0f, 64), 64);
+  EXPECT_EQ(resolutionAt(1.5f, 16), 16);
+}
+
+TEST(ProbeResolution, Fixed_IsTheTechniquesAtAnyDistance) {
+  Snapshot snapshot = snapshotWith(makeTwoBoxes(), {vec3(0), vec3(0, 0, -1000)});
+  EXPECT_THAT(probeResolutions(Technique(), snapshot, 100), ElementsAre(256, 256));
 }
 
 }  // namespace
