@@ -14,8 +14,9 @@ Bounds proxyBoxOf(const Snapshot& snapshot, const Probe& probe);
 float proxyRadiusOf(const Bounds& box);
 
 // The one view of a probe whose technique captures no more: 90 degrees along the mean normal of its owners' surfaces,
-// upright, its right that of a viewer who looks at them. Of owners without one, as closed bodies are, towards the
-// camera.
+// turned as their texture coordinates are on the mean, so that a screen shows it as its own picture. Of owners without
+// a mean normal, as closed bodies are, towards the camera; of owners without tangents upright, its right that of a
+// viewer who looks at them.
 shading::View singleView(const Snapshot& snapshot, const Probe& probe);
 
 gpu::ProbeConstants probeConstants(const Snapshot& snapshot, const Probe& probe);

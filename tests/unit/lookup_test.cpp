@@ -417,24 +417,37 @@ TEST_P(RasterLookup, SingleViewCapturesOneViewAProbe) {
   }
 }
 
+// A quad made with its v downwards faces away: the same seen from its other side, its bitangent up.
+Mesh turnedRound(Mesh mesh) {
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i], mesh.indices[i + 1]);
+  for (vec3& n : mesh.normals) n = -n;
+  for (glm::vec4& t : mesh.tangents) t.w = -t.w;
+  return mesh;
+}
+
 TEST_P(RasterLookup, SingleViewShowsWhatIsInFrontOfTheMirrorItsRightWay) {
   // A mirror at the origin that faces +Z and the camera, with a lamp in front of it on the viewer's right and above.
-  const auto pictureOf = [&](vec3 lamp) {
-    Scene scene = makeEmptyScene(kBlack);
-    addInstance(scene, "mirror", finishMesh(makeQuadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0})),
-                addMaterial(scene, makeMirrorMaterial("mirror")));
-    addBox(scene, lamp, vec3(2.0f), makeUnlit(kRed));
-    return render(*snapshotOf(std::move(scene)), withLookup("single-view", 64), kSize, kSize);
-  };
-  const auto redIn = [](const Image& image, int x0, int y0) {
-    double sum = 0.0;
-    for (int y = y0; y < y0 + kSize / 2; ++y)
-      for (int x = x0; x < x0 + kSize / 2; ++x) sum += static_cast<double>(image(x, y).x);
-    return sum;
-  };
-  const Image rightAbove = pictureOf({2.2f, 2.2f, 10.0f}), leftBelow = pictureOf({-2.2f, -2.2f, 10.0f});
-  EXPECT_GT(redIn(rightAbove, kSize / 2, 0), 4.0 * redIn(rightAbove, 0, kSize / 2) + 10.0);
-  EXPECT_GT(redIn(leftBelow, 0, kSize / 2), 4.0 * redIn(leftBelow, kSize / 2, 0) + 10.0);
+  // Whichever way its texture coordinates run.
+  for (const bool upsideDown : {false, true}) {
+    const auto pictureOf = [&](vec3 lamp) {
+      Scene scene = makeEmptyScene(kBlack);
+      const Mesh upright = makeQuadMesh({-1, 1, 0}, {2, 0, 0}, {0, -2, 0});
+      addInstance(scene, "mirror",
+                  finishMesh(upsideDown ? makeQuadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}) : turnedRound(upright)),
+                  addMaterial(scene, makeMirrorMaterial("mirror")));
+      addBox(scene, lamp, vec3(2.0f), makeUnlit(kRed));
+      return render(*snapshotOf(std::move(scene)), withLookup("single-view", 64), kSize, kSize);
+    };
+    const auto redIn = [](const Image& image, int x0, int y0) {
+      double sum = 0.0;
+      for (int y = y0; y < y0 + kSize / 2; ++y)
+        for (int x = x0; x < x0 + kSize / 2; ++x) sum += static_cast<double>(image(x, y).x);
+      return sum;
+    };
+    const Image rightAbove = pictureOf({2.2f, 2.2f, 10.0f}), leftBelow = pictureOf({-2.2f, -2.2f, 10.0f});
+    EXPECT_GT(redIn(rightAbove, kSize / 2, 0), 4.0 * redIn(rightAbove, 0, kSize / 2) + 10.0);
+    EXPECT_GT(redIn(leftBelow, 0, kSize / 2), 4.0 * redIn(leftBelow, kSize / 2, 0) + 10.0);
+  }
 }
 
 // --- Blended ---------------------------------------------------------------------------------------------------------
