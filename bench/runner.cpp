@@ -93,6 +93,7 @@ class Runner {
   }
 
   RunOutcome run() {
+    checkSequences();
     measureErrors();
     RunOutcome outcome;
     outcome.skipped = skipped_;
@@ -122,6 +123,16 @@ class Runner {
     std::ranges::copy_if(sequence.frames, std::back_inserter(open),
                          [&](int frame) { return !isFinished(sequence, frame); });
     return open;
+  }
+
+  // Before anything is rendered.
+  void checkSequences() {
+    const ImageSettings& image = c_.suite.image;
+    for (const PlannedSequence& sequence : c_.plan.sequences)
+      if (!sequence.external && !openFrames(sequence).empty())
+        RasterSequence::check(c_.device, sequence.technique,
+                              *snapshot(sequence.scene, suiteScene(sequence.scene).startFrame()), image.widthPx,
+                              image.heightPx, image.samplesPerAxis);
   }
 
   void measureErrors() {

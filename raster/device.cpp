@@ -52,6 +52,7 @@ void setInitialState(const gl::Functions& gl) {
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // for the reversed depth of clipFromWorldPosition()
   gl.Enable(GL_DEPTH_TEST);
   gl.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  gl.Enable(GL_FRAMEBUFFER_SRGB);  // of targets that have such a format: probes with Technique::format = rgba8-srgb
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }

@@ -4,6 +4,7 @@
 
 #include "raster/gpu_structs.h"
 #include "raster/lookup.h"
+#include "raster/map_conversion.h"
 #include "raster/prefilter.h"
 #include "scenes/error.h"
 
@@ -48,15 +49,19 @@ void checkSceneFits(const DeviceLimits& limits, const Scene& scene) {
   checkBytes(limits, kTexelBytes * texels, "the scene's textures");
 }
 
-std::int64_t probeBytes(const Technique& technique, int probes, bool filtered) {
+std::int64_t probeBytes(const Technique& technique, int probes, ProbeFilter levels) {
   if (technique.probes == ProbeUse::environmentOnly) return 0;
-  const std::int64_t copies = technique.bounceOrder == BounceOrder::simultaneous ? 2 : 1;
-  const std::int64_t texels =
-      std::int64_t{viewsOfProbe(technique)} * probes * technique.resolution * technique.resolution;
-  const std::int64_t earlier = technique.hysteresis > 0.0f ? texels * kCubeTexelBytes : 0;
-  const std::int64_t texelBytes = kCubeTexelBytes + (needsDistances(technique) ? kDepthBytes : 0);
-  return earlier + copies * texels * texelBytes +
-         (filtered ? filteredBytes(technique.filter, technique.resolution, probes) : 0);
+  const TexelFormat& format = texelFormat(technique.format);
+  const MapSquares squares = mapSquares(technique.storage, technique.resolution);
+  const int views = viewsOfProbe(technique);
+  const std::int64_t shown = std::int64_t{views == 1 ? 1 : squares.count} * squares.edge * squares.edge;
+  const std::int64_t captured = std::int64_t{views} * technique.resolution * technique.resolution;
+  const bool hasBack =
+      technique.bounceOrder == BounceOrder::simultaneous || isConverted(technique.format, technique.storage);
+  std::int64_t bytes = shown * format.shownBytes + (hasBack ? captured * format.capturedBytes : 0);
+  if (technique.hysteresis > 0.0f) bytes += captured * format.capturedBytes;
+  if (needsDistances(technique)) bytes += (hasBack ? 2 : 1) * captured * kDepthBytes;
+  return probes * bytes + filteredBytes(levels, technique.resolution, probes, format.shownBytes);
 }
 
 std::int64_t mirroredViewBytes(std::size_t views, int widthSamples, int heightSamples) {
@@ -84,14 +89,18 @@ void checkBackFacesFit(const DeviceLimits& limits, int widthSamples, int heightS
   checkBytes(limits, 2 * imageBytes(widthSamples, heightSamples, 1), "the image's samples and the back faces of glass");
 }
 
-void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, bool filtered, int widthPx,
+void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, ProbeFilter levels, int widthPx,
                     int heightPx, int samplesPerAxis) {
   if (technique.probes == ProbeUse::environmentOnly || probes == 0) return;
   if (technique.resolution < 1 || technique.resolution > limits.cubeMapSizePx)
     throwInputError("the device's cube maps have 1 to {} texels along an edge, got resolution {}", limits.cubeMapSizePx,
                     technique.resolution);
   const std::int64_t depth = kDepthBytes * technique.resolution * technique.resolution;
-  checkBytes(limits, probeBytes(technique, probes, filtered) + depth + imageBytes(widthPx, heightPx, samplesPerAxis),
+  const int edge = mapSquares(technique.storage, technique.resolution).edge;
+  if (edge > limits.textureSizePx)
+    throwInputError("the device's textures have at most {} texels along an edge, maps of resolution {} want {}",
+                    limits.textureSizePx, technique.resolution, edge);
+  checkBytes(limits, probeBytes(technique, probes, levels) + depth + imageBytes(widthPx, heightPx, samplesPerAxis),
              "the cube maps and the image's samples");
 }
 

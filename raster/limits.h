@@ -20,9 +20,9 @@ struct DeviceLimits {
 // Throws an input Error when a texture or the environment is too large for the device, or all together.
 void checkSceneFits(const DeviceLimits& limits, const Scene& scene);
 
-// Memory of the cube maps of `probes` probes, with their distances if the lookup reads them, and with what the
-// technique's filter takes if rough lobes look them up.
-std::int64_t probeBytes(const Technique& technique, int probes, bool filtered);
+// Memory of the maps of `probes` probes, with their distances if the lookup reads them, what they are converted from,
+// and the filtered levels of that kind.
+std::int64_t probeBytes(const Technique& technique, int probes, ProbeFilter levels);
 
 // Memory of the images of that many mirrored views, of so many samples each.
 std::int64_t mirroredViewBytes(std::size_t views, int widthSamples, int heightSamples);
@@ -34,7 +34,7 @@ void checkImageFits(const DeviceLimits& limits, int widthPx, int heightPx, int s
 void checkBackFacesFit(const DeviceLimits& limits, int widthSamples, int heightSamples);
 
 // The same for the cube maps with their depth and the final image together.
-void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, bool filtered, int widthPx,
+void checkProbesFit(const DeviceLimits& limits, const Technique& technique, int probes, ProbeFilter levels, int widthPx,
                     int heightPx, int samplesPerAxis);
 
 }  // namespace pb

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "raster/gpu_structs.h"
 
@@ -106,21 +107,14 @@ gl::Texture makeLayers(const gl::Functions& gl, GLenum format, int resolution, i
                               .levels = levels});
 }
 
-// Level `level` of the six faces, from bound textures: one work group covers 8 x 8 texels.
-void dispatchFaces(const gl::Functions& gl, GLuint program, const gl::Texture& target, GLenum format, int level,
-                   const glm::ivec4& job, FaceSet faces) {
-  gl.UseProgram(program);
-  gl.ProgramUniform4i(program, 0, job.x, job.y, job.z, job.w);
-  gl.BindImageTexture(gpu::kFilterTargetImage, target.id(), level, GL_TRUE, 0, GL_WRITE_ONLY, format);
-  const GLuint groups = (static_cast<GLuint>(job.z) + kGroup - 1) / kGroup;
-  gl.DispatchCompute(groups, groups, static_cast<GLuint>(std::popcount(faces)));
-}
-
 constexpr GLbitfield kLevelsAreRead = GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
 
-void bindSource(const gl::Functions& gl, const gl::Texture& source) {
-  gl.BindTextureUnit(gpu::kFilterSourceUnit, source.id());
-  gl.BindSampler(gpu::kFilterSourceUnit, 0);
+// Environments: the sun of a photographed sky exceeds halves.
+constexpr TexelFormat kFloats = {GL_RGBA32F, GL_RGBA32F, 16, 16, std::numeric_limits<float>::infinity(),
+                                 GL_RGBA32F, ""};
+
+const gl::Texture& imageOf(const gl::Texture& layers, const gl::Texture& view) {
+  return view.id() != 0 ? view : layers;
 }
 
 // Texels that resolve the width at which the glow falls to a half, acos(2^(-1/exponent)) ~ sqrt(2 ln 2 / exponent),
@@ -155,8 +149,7 @@ bool hasRoughLobe(const Material& material) {
          shading::ggxAlpha(material.constants.factors.y) > 0.0f;  // a texture only makes it smoother
 }
 
-std::int64_t filteredBytes(ProbeFilter filter, int resolution, int cubes) {
-  constexpr std::int64_t kTexelBytes = 8;
+std::int64_t filteredBytes(ProbeFilter filter, int resolution, int cubes, std::int64_t texelBytes) {
   const auto texels = [&](int first, int last) {
     std::int64_t sum = 0;
     for (int level = first; level <= last; ++level)
@@ -164,7 +157,27 @@ std::int64_t filteredBytes(ProbeFilter filter, int resolution, int cubes) {
     return sum;
   };
   const std::int64_t copy = filter == ProbeFilter::ggxPrefiltered ? texels(0, lastBoxLevel(resolution)) : 0;
-  return kTexelBytes * (cubes * texels(1, filteredLevels(filter, resolution)) + copy);
+  return texelBytes * (cubes * texels(1, filteredLevels(filter, resolution)) + copy);
+}
+
+gl::Texture makeImageView(const gl::Texture& layers, const TexelFormat& format, int levels, int layerCount) {
+  if (format.image == format.shown) return {};
+  return gl::makeView(layers, {GL_TEXTURE_2D_ARRAY, format.image, levels, layerCount});
+}
+
+// One work group covers 8 x 8 texels.
+void dispatchFaces(const gl::Functions& gl, GLuint program, const gl::Texture& target, GLenum imageFormat, int level,
+                   int edge, FaceSet faces) {
+  gl.UseProgram(program);
+  gl.ProgramUniform3i(program, 0, packed(faces), edge, level - 1);
+  gl.BindImageTexture(gpu::kFilterTargetImage, target.id(), level, GL_TRUE, 0, GL_WRITE_ONLY, imageFormat);
+  const GLuint groups = (static_cast<GLuint>(edge) + kGroup - 1) / kGroup;
+  gl.DispatchCompute(groups, groups, static_cast<GLuint>(std::popcount(faces)));
+}
+
+void bindFilterSource(const gl::Functions& gl, const gl::Texture& source) {
+  gl.BindTextureUnit(gpu::kFilterSourceUnit, source.id());
+  gl.BindSampler(gpu::kFilterSourceUnit, 0);
 }
 
 std::array<glm::vec4, kLobeSamples> lobeSamples(float alpha) {
@@ -183,18 +196,20 @@ std::array<glm::vec4, kLobeSamples> lobeSamples(float alpha) {
   return samples;
 }
 
-CubeFilter::CubeFilter(gl::Context& context, Programs& programs, ProbeFilter filter, GLenum format, int resolution)
+CubeFilter::CubeFilter(gl::Context& context, Programs& programs, ProbeFilter filter, const TexelFormat& format,
+                       int resolution)
     : gl_(context.functions()),
       filter_(filter),
       format_(format),
       resolution_(resolution),
       levels_(filteredLevels(filter, resolution)),
-      boxProgram_(programs.boxLevel(filter == ProbeFilter::ggxPrefiltered)) {
+      boxProgram_(programs.boxLevel(filter == ProbeFilter::ggxPrefiltered, format.defines)) {
   if (filter_ == ProbeFilter::boxMips) return;
-  ggxProgram_ = programs.ggxLevel(kLobeSamples);
+  ggxProgram_ = programs.ggxLevel(kLobeSamples, format.defines);
   const int sourceLevels = lastBoxLevel(resolution) + 1;
-  sourceLayers_ = makeLayers(gl_, format, resolution, sourceLevels);
-  source_ = gl::makeView(sourceLayers_, {GL_TEXTURE_CUBE_MAP, format, sourceLevels, 6});
+  sourceLayers_ = makeLayers(gl_, format.shown, resolution, sourceLevels);
+  sourceImage_ = makeImageView(sourceLayers_, format, sourceLevels, 6);
+  source_ = gl::makeView(sourceLayers_, {GL_TEXTURE_CUBE_MAP, format.shown, sourceLevels, 6});
   lobes_ = UniformSlots<Lobes>(context, static_cast<std::size_t>(levels_));
   for (int level = 1; level <= levels_; ++level) {
     const float roughness = levelRoughness(level, levels_);
@@ -207,46 +222,46 @@ CubeFilter::CubeFilter(gl::Context& context, Programs& programs, ProbeFilter fil
   context.check("allocating filtered cube maps");
 }
 
-std::int64_t CubeFilter::run(const gl::Texture& layers, int cube, FaceSet changed) {
+std::int64_t CubeFilter::run(const gl::Texture& layers, const gl::Texture& image, FaceSet changed) {
+  const gl::Texture& target = imageOf(layers, image);
   std::int64_t written = 0;
-  const bool isBox = filter_ == ProbeFilter::boxMips;
-  if (isBox) {
+  if (filter_ == ProbeFilter::boxMips) {
     for (int level = 1; level <= levels_; ++level) {
-      fillBoxLevel(boxProgram_, layers, 6 * cube, level, changed);
+      fillBoxLevel(boxProgram_, layers, target, level, changed);
       written += texels(level, changed);
     }
     return written;
   }
-  gl_.CopyImageSubData(layers.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 6 * cube, sourceLayers_.id(), GL_TEXTURE_2D_ARRAY, 0,
-                       0, 0, 0, resolution_, resolution_, 6);
+  gl_.CopyImageSubData(layers.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, sourceLayers_.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0,
+                       0, resolution_, resolution_, 6);
   for (int level = 1; level <= lastBoxLevel(resolution_); ++level) {
-    fillBoxLevel(boxProgram_, sourceLayers_, 0, level, kAllFaces);
+    fillBoxLevel(boxProgram_, sourceLayers_, imageOf(sourceLayers_, sourceImage_), level, kAllFaces);
     written += texels(level, kAllFaces);
   }
   for (int level = 1; level <= levels_; ++level) {
     const FaceSet faces = affectedFaces(changed, reachesOpposite_[static_cast<std::size_t>(level - 1)]);
-    fillGgxLevel(layers, 6 * cube, level, faces);
+    fillGgxLevel(target, level, faces);
     written += texels(level, faces);
   }
   gl_.MemoryBarrier(kLevelsAreRead);
   return written;
 }
 
-void CubeFilter::fillBoxLevel(GLuint program, const gl::Texture& layers, int firstLayer, int level, FaceSet faces) {
-  bindSource(gl_, layers);
-  dispatch(program, layers, firstLayer, level, faces);
+void CubeFilter::fillBoxLevel(GLuint program, const gl::Texture& layers, const gl::Texture& target, int level,
+                              FaceSet faces) {
+  bindFilterSource(gl_, layers);
+  dispatch(program, target, level, faces);
   gl_.MemoryBarrier(kLevelsAreRead);
 }
 
-void CubeFilter::fillGgxLevel(const gl::Texture& layers, int firstLayer, int level, FaceSet faces) {
-  bindSource(gl_, source_);
+void CubeFilter::fillGgxLevel(const gl::Texture& target, int level, FaceSet faces) {
+  bindFilterSource(gl_, source_);
   lobes_.bind(gpu::kLobeBlock, static_cast<std::size_t>(level - 1));
-  dispatch(ggxProgram_, layers, firstLayer, level, faces);
+  dispatch(ggxProgram_, target, level, faces);
 }
 
-void CubeFilter::dispatch(GLuint program, const gl::Texture& layers, int firstLayer, int level, FaceSet faces) {
-  dispatchFaces(gl_, program, layers, format_, level,
-                {firstLayer, packed(faces), levelSize(resolution_, level), level - 1}, faces);
+void CubeFilter::dispatch(GLuint program, const gl::Texture& target, int level, FaceSet faces) {
+  dispatchFaces(gl_, program, target, format_.image, level, levelSize(resolution_, level), faces);
 }
 
 std::int64_t CubeFilter::texels(int level, FaceSet faces) const {
@@ -258,7 +273,6 @@ int filteredEnvironmentResolution(const Environment& environment) {
   return std::min(environment.faces.front().width(), kLargestFilteredEnvironment);
 }
 
-// In floats: the sun of a photographed sky exceeds halves.
 FilteredEnvironment filterEnvironment(gl::Context& context, Programs& programs, const Environment& environment,
                                       ProbeFilter filter) {
   const gl::Functions& gl = context.functions();
@@ -272,9 +286,9 @@ FilteredEnvironment filterEnvironment(gl::Context& context, Programs& programs, 
   const int subtexels =
       isGradient ? kGradientSubtexels : (environment.faces.front().width() + result.resolution - 1) / result.resolution;
   const GLuint program = programs.environmentFaces(environmentSource(environment, TextureFilter::exact), subtexels);
-  dispatchFaces(gl, program, result.layers, GL_RGBA32F, 0, {0, packed(kAllFaces), result.resolution, 0}, kAllFaces);
+  dispatchFaces(gl, program, result.layers, kFloats.image, 0, result.resolution, kAllFaces);
   gl.MemoryBarrier(kLevelsAreRead);
-  CubeFilter(context, programs, filter, GL_RGBA32F, result.resolution).run(result.layers, 0, kAllFaces);
+  CubeFilter(context, programs, filter, kFloats, result.resolution).run(result.layers, {}, kAllFaces);
   context.check("filtering the environment");
   return result;
 }

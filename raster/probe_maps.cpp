@@ -4,38 +4,52 @@
 
 namespace pb {
 
-ProbeMaps::ProbeMaps(gl::Context& context, Programs& programs, int resolution, int probes, int views,
-                     bool doubleBuffered, ProbeFilter filter, bool keepsDistances)
+ProbeMaps::ProbeMaps(gl::Context& context, Programs& programs, const Settings& settings)
     : gl_(context.functions()),
-      resolution_(resolution),
-      views_(views),
-      levels_(filteredLevels(filter, resolution)),
-      keepsDistances_(keepsDistances),
-      depth_(gl::makeTexture(
-          gl_, {.target = GL_TEXTURE_2D, .format = GL_DEPTH_COMPONENT32F, .width = resolution, .height = resolution})) {
-  for (int probe = 0; probe < probes; ++probe) maps_.push_back(makeMap(doubleBuffered));
-  if (levels_ > 0) filter_.emplace(context, programs, filter, GL_RGBA16F, resolution);
+      settings_(settings),
+      format_(texelFormat(settings.format)),
+      levels_(filteredLevels(settings.filter, settings.resolution)),
+      depth_(gl::makeTexture(gl_, {.target = GL_TEXTURE_2D,
+                                   .format = GL_DEPTH_COMPONENT32F,
+                                   .width = settings.resolution,
+                                   .height = settings.resolution})) {
+  for (int probe = 0; probe < settings.probes; ++probe) maps_.push_back(makeMap());
+  if (levels_ > 0) filter_.emplace(context, programs, settings.filter, format_, settings.resolution);
+  if (isConverted(settings.format, settings.storage))
+    conversion_.emplace(context, programs, settings.format, settings.storage, settings.resolution, settings.seamless);
   context.check("allocating cube maps");
   framebuffer_ = gl::makeLayerFramebuffer(gl_, maps_.front().captured(), depth_);
 }
 
-ProbeMaps::Map ProbeMaps::makeMap(bool doubleBuffered) const {
-  const auto makeFaces = [&](int levels) {
-    return gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
-                                 .format = GL_RGBA16F,
-                                 .width = resolution_,
-                                 .height = resolution_,
-                                 .layers = views_,
-                                 .levels = levels});
-  };
+ProbeMaps::Map ProbeMaps::makeMap() const {
   Map map;
-  map.shownLayers = makeFaces(levels_ + 1);
-  map.shown = gl::makeView(map.shownLayers,
-                           {views_ == 6 ? static_cast<GLenum>(GL_TEXTURE_CUBE_MAP) : static_cast<GLenum>(GL_TEXTURE_2D),
-                            GL_RGBA16F, levels_ + 1, views_});
-  if (doubleBuffered) map.back = makeFaces(1);
-  if (keepsDistances_) addDepths(map);
+  addShown(map);
+  if (settings_.doubleBuffered || isConverted(settings_.format, settings_.storage)) {
+    map.back = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
+                                     .format = format_.captured,
+                                     .width = settings_.resolution,
+                                     .height = settings_.resolution,
+                                     .layers = settings_.views});
+    if (settings_.storage != Storage::cube) map.backCube = gl::makeCubeView(map.back, format_.captured);
+  }
+  if (settings_.keepsDistances) addDepths(map);
   return map;
+}
+
+void ProbeMaps::addShown(Map& map) const {
+  const MapSquares squares = mapSquares(settings_.storage, settings_.resolution);
+  const int layers = settings_.views == 1 ? 1 : squares.count;
+  map.shownLayers = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
+                                          .format = format_.shown,
+                                          .width = squares.edge,
+                                          .height = squares.edge,
+                                          .layers = layers,
+                                          .levels = levels_ + 1});
+  map.shownImage = makeImageView(map.shownLayers, format_, levels_ + 1, layers);
+  GLenum target = GL_TEXTURE_CUBE_MAP;
+  if (settings_.views == 1) target = GL_TEXTURE_2D;
+  if (settings_.storage != Storage::cube) target = GL_TEXTURE_2D_ARRAY;
+  map.shown = gl::makeView(map.shownLayers, {target, format_.shown, levels_ + 1, layers});
 }
 
 void ProbeMaps::addDepths(Map& map) const {
@@ -43,8 +57,8 @@ void ProbeMaps::addDepths(Map& map) const {
   const auto makeDepths = [&] {
     gl::Texture depths = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
                                                .format = GL_DEPTH_COMPONENT32F,
-                                               .width = resolution_,
-                                               .height = resolution_,
+                                               .width = settings_.resolution,
+                                               .height = settings_.resolution,
                                                .layers = 6});
     gl_.ClearTexImage(depths.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &kFarthest);
     return depths;
@@ -56,30 +70,42 @@ void ProbeMaps::addDepths(Map& map) const {
 
 void ProbeMaps::bind(int probe, int unit, int depthUnit) const {
   gl_.BindTextureUnit(static_cast<GLuint>(unit), mapOf(probe).shown.id());
-  if (keepsDistances_) gl_.BindTextureUnit(static_cast<GLuint>(depthUnit), mapOf(probe).shownDepths.id());
+  if (settings_.keepsDistances) gl_.BindTextureUnit(static_cast<GLuint>(depthUnit), mapOf(probe).shownDepths.id());
 }
 
 RenderTarget ProbeMaps::target(const ProbeFace& face) {
   gl::setColorLayer(framebuffer_, mapOf(face.probe).captured(), face.face);
-  if (keepsDistances_) gl::setDepthLayer(framebuffer_, mapOf(face.probe).capturedDepths(), face.face);
-  return {framebuffer_.id(), resolution_, resolution_};
+  if (settings_.keepsDistances) gl::setDepthLayer(framebuffer_, mapOf(face.probe).capturedDepths(), face.face);
+  return {framebuffer_.id(), settings_.resolution, settings_.resolution};
 }
 
-void ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
-  bool isDoubleBuffered = false;
-  for (const ProbeFace& face : captured) {
-    Map& map = mapOf(face.probe);
-    map.unfiltered |= 1u << face.face;
-    if (map.back.id() == 0) continue;
-    isDoubleBuffered = true;
-    gl_.CopyImageSubData(map.back.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face.face, map.shownLayers.id(),
-                         GL_TEXTURE_2D_ARRAY, 0, 0, 0, face.face, resolution_, resolution_, 1);
-    if (keepsDistances_)
-      gl_.CopyImageSubData(map.backDepths.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face.face, map.shownDepthLayers.id(),
-                           GL_TEXTURE_2D_ARRAY, 0, 0, 0, face.face, resolution_, resolution_, 1);
+std::int64_t ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
+  std::vector<FaceSet> changed(maps_.size(), 0);
+  for (const ProbeFace& face : captured) changed[static_cast<std::size_t>(face.probe)] |= 1u << face.face;
+  std::int64_t converted = 0;
+  for (std::size_t probe = 0; probe < maps_.size(); ++probe) {
+    Map& map = maps_[probe];
+    if (changed[probe] == 0) continue;
+    map.unfiltered |= changed[probe];
+    for (int face = 0; face < 6; ++face)
+      if (map.back.id() != 0 && (changed[probe] >> face & 1u) != 0) copyToShown(map, face);
+    if (conversion_)
+      converted += conversion_->run(map.backCube.id() != 0 ? map.backCube : map.back, map.shownLayers, map.shownImage,
+                                    changed[probe]);
   }
   // Single-buffered captures are read in the texture that they were drawn to.
-  if (!isDoubleBuffered) gl_.TextureBarrier();
+  if (maps_.front().back.id() == 0) gl_.TextureBarrier();
+  return converted;
+}
+
+// What is not converted.
+void ProbeMaps::copyToShown(const Map& map, int face) const {
+  const auto copy = [&](const gl::Texture& from, const gl::Texture& to) {
+    gl_.CopyImageSubData(from.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face, to.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face,
+                         settings_.resolution, settings_.resolution, 1);
+  };
+  if (!conversion_) copy(map.back, map.shownLayers);
+  if (settings_.keepsDistances) copy(map.backDepths, map.shownDepthLayers);
 }
 
 bool ProbeMaps::isStale(const std::vector<bool>& wanted) const {
@@ -95,19 +121,24 @@ std::int64_t ProbeMaps::filter(const std::vector<bool>& wanted) {
   for (std::size_t probe = 0; probe < maps_.size(); ++probe) {
     Map& map = maps_[probe];
     if (!wanted[probe] || map.unfiltered == 0) continue;
-    texels += filter_->run(map.shownLayers, 0, map.unfiltered);
+    texels += filter_->run(map.shownLayers, map.shownImage, map.unfiltered);
     map.unfiltered = 0;
   }
   return texels;
 }
 
 std::array<Image, 6> ProbeMaps::read(int probe, int level) const {
-  const int size = std::max(resolution_ >> level, 1);
+  const Map& map = mapOf(probe);
+  const gl::Texture& layers = settings_.storage == Storage::cube ? map.shownLayers : map.back;
+  const int size = std::max(settings_.resolution >> level, 1);
   const std::size_t texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-  const auto views = static_cast<std::size_t>(views_);
+  const auto views = static_cast<std::size_t>(settings_.views);
   std::vector<glm::vec3> faces(views * texels);
-  gl_.GetTextureSubImage(mapOf(probe).shownLayers.id(), level, 0, 0, 0, size, size, views_, GL_RGB, GL_FLOAT,
+  gl_.GetTextureSubImage(layers.id(), level, 0, 0, 0, size, size, settings_.views, GL_RGB, GL_FLOAT,
                          static_cast<GLsizei>(faces.size() * sizeof(glm::vec3)), faces.data());
+  if (settings_.format == ProbeFormat::rgba8Srgb)  // read as it is stored
+    for (glm::vec3& texel : faces)
+      texel = {shading::srgbDecode(texel.x), shading::srgbDecode(texel.y), shading::srgbDecode(texel.z)};
   std::array<Image, 6> images;
   for (std::size_t face = 0; face < views; ++face) {
     images[face] = Image(size, size);

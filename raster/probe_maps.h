@@ -1,4 +1,4 @@
-// The cube maps of all probes: RGBA16F, a texture a probe, with filtered levels where a technique wants them.
+// The maps of all probes: a texture a probe, with filtered levels where a technique wants them.
 #pragma once
 
 #include <array>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raster/gpu_structs.h"
+#include "raster/map_conversion.h"
 #include "raster/prefilter.h"
 #include "raster/refresh.h"
 #include "raster/render_target.h"
@@ -15,11 +16,18 @@ namespace pb {
 
 class ProbeMaps {
  public:
-  // Double-buffered maps keep what is shown apart from what is captured until publish(). filter: none if nothing looks
-  // up other levels than level 0. keepsDistances: for lookups that read them.
-  // views: 6, or 1 for maps that are one picture instead of a cube.
-  ProbeMaps(gl::Context& context, Programs& programs, int resolution, int probes, int views, bool doubleBuffered,
-            ProbeFilter filter, bool keepsDistances);
+  struct Settings {
+    int resolution;
+    int probes;
+    int views = 6;                           // 1 for maps that are one picture instead of a cube
+    bool doubleBuffered = false;             // what is shown is kept apart from what is captured until publish()
+    ProbeFilter filter = ProbeFilter::none;  // none if nothing looks up other levels than level 0
+    bool keepsDistances = false;             // for lookups that read them
+    ProbeFormat format = ProbeFormat::rgba16f;
+    Storage storage = Storage::cube;  // others have no levels
+    bool seamless = true;
+  };
+  ProbeMaps(gl::Context& context, Programs& programs, const Settings& settings);
 
   // Lookups of the draws that follow read what that probe shows, and what a second one shows if they blend two.
   void bind(int probe) const { bind(probe, gpu::kProbeUnit, gpu::kProbeDepthUnit); }
@@ -30,48 +38,55 @@ class ProbeMaps {
   // The layers whose captures publish() makes visible.
   const gl::Texture& captured(int probe) const { return mapOf(probe).captured(); }
 
-  // Makes captures visible to the lookups that follow, in level 0.
-  void publish(const std::vector<ProbeFace>& captured);
+  // Makes captures visible to the lookups that follow, in level 0. Returns the number of texels that a conversion
+  // wrote.
+  std::int64_t publish(const std::vector<ProbeFace>& captured);
 
   // Whether a wanted probe has faces that were published and not filtered since.
   bool isStale(const std::vector<bool>& wanted) const;
   // Brings the levels of the wanted probes up to date. Returns the number of texels written.
   std::int64_t filter(const std::vector<bool>& wanted);
 
-  // The faces that are shown, in GL order; empty ones beyond a single view.
+  // The faces that are shown, in GL order; empty ones beyond a single view. Of other maps than cubes, the captured
+  // ones.
   std::array<Image, 6> read(int probe, int level) const;
 
  private:
   struct Map {
-    gl::Texture shownLayers;  // the six faces with their levels
-    gl::Texture shown;        // the same as a cube map
-    gl::Texture back;         // six faces, only if double-buffered; level 0
+    gl::Texture shownLayers;  // the six faces with their levels, or another map's squares
+    gl::Texture shownImage;   // makeImageView()
+    gl::Texture shown;        // the same as lookups read it
+    gl::Texture back;         // six faces, only if double-buffered or converted; level 0
+    gl::Texture backCube;     // the same as a cube map, for other maps than cubes
     // The depth buffers of the faces, if distances are kept: reversed depth is near / distance along the face's axis,
     // as floats. Zero, infinitely far away, where nothing was captured.
     gl::Texture shownDepthLayers;
     gl::Texture shownDepths;  // the same as a cube map
-    gl::Texture backDepths;   // only if double-buffered
+    gl::Texture backDepths;   // only if there is a back
     FaceSet unfiltered = 0;
 
     const gl::Texture& captured() const { return back.id() != 0 ? back : shownLayers; }
     const gl::Texture& capturedDepths() const { return back.id() != 0 ? backDepths : shownDepthLayers; }
   };
 
-  Map makeMap(bool doubleBuffered) const;
+  Map makeMap() const;
+  void addShown(Map& map) const;
   void addDepths(Map& map) const;
   void bind(int probe, int unit, int depthUnit) const;
   Map& mapOf(int probe) { return maps_[static_cast<std::size_t>(probe)]; }
   const Map& mapOf(int probe) const { return maps_[static_cast<std::size_t>(probe)]; }
 
+  void copyToShown(const Map& map, int face) const;
+
   const gl::Functions& gl_;
-  int resolution_;
-  int views_;
+  const Settings settings_;
+  const TexelFormat format_;
   int levels_;  // above level 0
-  bool keepsDistances_;
   std::vector<Map> maps_;
   gl::Texture depth_;
   gl::Framebuffer framebuffer_;
   std::optional<CubeFilter> filter_;
+  std::optional<MapConversion> conversion_;
 };
 
 }  // namespace pb

@@ -10,6 +10,8 @@
 #include "raster/shaders/background.vert.h"
 #include "raster/shaders/blend_history.frag.h"
 #include "raster/shaders/compose_layers.frag.h"
+#include "raster/shaders/convert_map.comp.h"
+#include "raster/shaders/copy_texels.comp.h"
 #include "raster/shaders/ids.frag.h"
 #include "raster/shaders/prefilter_box.comp.h"
 #include "raster/shaders/prefilter_ggx.comp.h"
@@ -102,12 +104,23 @@ GLuint Programs::background(EnvironmentSource source) {
   return find(shaders::kBackgroundVert, shaders::kBackgroundFrag, "background", definesOf(source));
 }
 
-GLuint Programs::boxLevel(bool weighsSolidAngles) {
-  return findCompute(shaders::kPrefilterBoxComp, "prefilter_box", weighsSolidAngles ? define("SOLID_ANGLES") : "");
+GLuint Programs::boxLevel(bool weighsSolidAngles, const std::string& formatDefines) {
+  return findCompute(shaders::kPrefilterBoxComp, "prefilter_box",
+                     formatDefines + (weighsSolidAngles ? define("SOLID_ANGLES") : ""));
 }
 
-GLuint Programs::ggxLevel(int samples) {
-  return findCompute(shaders::kPrefilterGgxComp, "prefilter_ggx", define("LOBE_SAMPLES", std::to_string(samples)));
+GLuint Programs::ggxLevel(int samples, const std::string& formatDefines) {
+  return findCompute(shaders::kPrefilterGgxComp, "prefilter_ggx",
+                     formatDefines + define("LOBE_SAMPLES", std::to_string(samples)));
+}
+
+GLuint Programs::copyTexels(const std::string& formatDefines) {
+  return findCompute(shaders::kCopyTexelsComp, "copy_texels", formatDefines);
+}
+
+GLuint Programs::convertMap(Storage storage, const std::string& formatDefines) {
+  return findCompute(shaders::kConvertMapComp, "convert_map",
+                     formatDefines + (storage == Storage::octahedral ? define("OCTAHEDRAL") : ""));
 }
 
 GLuint Programs::environmentFaces(EnvironmentSource source, int subtexels) {

@@ -60,8 +60,11 @@ class Programs {
                                    const std::string& techniqueDefines);
   GLuint background(EnvironmentSource source);
   // Filters of cube maps (raster/prefilter.h).
-  GLuint boxLevel(bool weighsSolidAngles);
-  GLuint ggxLevel(int samples);
+  GLuint boxLevel(bool weighsSolidAngles, const std::string& formatDefines);
+  GLuint ggxLevel(int samples, const std::string& formatDefines);
+  // Conversions of maps (raster/map_conversion.h).
+  GLuint copyTexels(const std::string& formatDefines);
+  GLuint convertMap(Storage storage, const std::string& formatDefines);
   GLuint environmentFaces(EnvironmentSource source, int subtexels);
   GLuint ids(const SurfaceVariant& variant);
   GLuint backFaces(const SurfaceVariant& variant);

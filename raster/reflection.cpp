@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "raster/lookup.h"
 #include "raster/prefilter.h"
 
 namespace pb {
@@ -32,6 +33,19 @@ Reflection blendOfNearest(const Snapshot& snapshot, const SnapshotInstance& inst
   return {ReflectionSource::probe, order[0], order[1], second / (first + second)};
 }
 
+// By probe: whether a surface of a wanted material looks it up.
+std::vector<bool> probesLookedUp(const Technique& technique, const Snapshot& snapshot,
+                                 bool (*isWanted)(const Material&)) {
+  std::vector<bool> looked(snapshot.probes.size(), false);
+  for (const SnapshotInstance& instance : snapshot.instances) {
+    const Reflection reflection = reflectionOf(technique, snapshot, instance);
+    if (reflection.source != ReflectionSource::probe || !isWanted(snapshot.materialOf(instance))) continue;
+    for (const int probe : {reflection.probe, reflection.second})
+      if (probe >= 0) looked[static_cast<std::size_t>(probe)] = true;
+  }
+  return looked;
+}
+
 }  // namespace
 
 Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance) {
@@ -46,15 +60,16 @@ Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, co
   return {ReflectionSource::environment};
 }
 
-std::vector<bool> probesOfRoughLobes(const Technique& technique, const Snapshot& snapshot) {
-  std::vector<bool> looked(snapshot.probes.size(), false);
-  for (const SnapshotInstance& instance : snapshot.instances) {
-    const Reflection reflection = reflectionOf(technique, snapshot, instance);
-    if (reflection.source != ReflectionSource::probe || !hasRoughLobe(snapshot.materialOf(instance))) continue;
-    for (const int probe : {reflection.probe, reflection.second})
-      if (probe >= 0) looked[static_cast<std::size_t>(probe)] = true;
-  }
-  return looked;
+ProbeFilter levelFilter(const Technique& technique, const Snapshot& snapshot) {
+  const auto any = [](const std::vector<bool>& probes) { return std::ranges::find(probes, true) != probes.end(); };
+  if (any(probesLookedUp(technique, snapshot, hasRoughLobe)) && mapFilter(technique) != ProbeFilter::none)
+    return mapFilter(technique);
+  return technique.mips && any(probesWithLevels(technique, snapshot)) ? ProbeFilter::boxMips : ProbeFilter::none;
+}
+
+std::vector<bool> probesWithLevels(const Technique& technique, const Snapshot& snapshot) {
+  if (technique.mips) return probesLookedUp(technique, snapshot, [](const Material&) { return true; });
+  return probesLookedUp(technique, snapshot, hasRoughLobe);
 }
 
 CoatSources coatSources(const Technique& technique, const Snapshot& snapshot) {

@@ -35,7 +35,12 @@ struct CoatSources {
 };
 CoatSources coatSources(const Technique& technique, const Snapshot& snapshot);
 
-// By probe: whether a rough lobe looks its cube map up, so that it wants filtered levels.
-std::vector<bool> probesOfRoughLobes(const Technique& technique, const Snapshot& snapshot);
+// The levels above level 0 that the maps of probes have: the filter's if rough lobes look one up, box-filtered ones if
+// only smooth lobes do, by Technique::mips. The same for all frames of a sequence: instances keep their materials, and
+// one scene has the same number of probes.
+ProbeFilter levelFilter(const Technique& technique, const Snapshot& snapshot);
+
+// By probe: whether lobes look up its levels.
+std::vector<bool> probesWithLevels(const Technique& technique, const Snapshot& snapshot);
 
 }  // namespace pb

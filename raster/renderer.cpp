@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 
@@ -46,6 +47,13 @@ std::vector<ProbeFace> oneFaceEach(std::vector<ProbeFace> faces) {
   faces.erase(std::unique(faces.begin(), faces.end(), isSameProbe), faces.end());
   for (ProbeFace& f : faces) f.face = 0;
   return faces;
+}
+
+// PassConstants::clip of a capture that shows nothing farther than that along the axis of its face; 0: everything.
+glm::vec4 farPlane(const shading::View& view, float metres) {
+  if (metres <= 0.0f) return glm::vec4(0.0f);
+  const glm::vec3 forward(view.forward);
+  return {-forward, metres + glm::dot(forward, glm::vec3(view.origin))};
 }
 
 // Faces that are ordered by probe, one group a probe.
@@ -94,12 +102,11 @@ struct RasterSequence::Impl {
   std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
   void appendCapturePasses(const Snapshot& snapshot, std::vector<gpu::PassConstants>& passes) const;
   std::vector<bool> mapsShownAtFirst(const std::vector<ProbeFace>& due, std::size_t probeCount) const;
-  bool wantsLevels(const Snapshot& snapshot) const;
   void fillMissingFaces(const Snapshot& snapshot, FrameCounters& counters);
   void iterate(const std::vector<ProbeFace>& due, bool isLast, PassTimer* passTimer, Frame& frame);
   void updateLevels(PassTimer* passTimer, Frame& frame);
   void capture(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters);
-  void publish(const std::vector<ProbeFace>& faces);
+  void publish(const std::vector<ProbeFace>& faces, FrameCounters& counters);
   void drawMirroredViews(const Snapshot& snapshot, PassTimer* passTimer, Frame& frame);
   std::size_t passesBeforeMirrors(const Snapshot& snapshot) const;
   std::vector<std::array<std::int64_t, 6>> faceAges() const;
@@ -116,13 +123,13 @@ struct RasterSequence::Impl {
   std::optional<PassTimer> timer;
   ProbeLayout layout;
   RefreshHistory history;
-  std::vector<std::size_t> filled;    // by probe: 1 + the environment that faces show which are never captured; 0: none
   std::vector<MirroredView> mirrors;  // of this frame
   std::optional<PlanarImages> mirrorImages;
   std::vector<GLuint> mirrorImageOfInstance;  // by instance: 0 for those that show none
   bool capturesMaps = true;                   // something looks the maps of probes up
-  std::vector<bool> mapShown;                 // by probe: lookups read its cube map, not the environment
-  std::vector<bool> levelsShown;              // by probe: lookups read its filtered levels
+  std::vector<std::size_t> filled;  // by probe: 1 + the environment that faces show which are never captured; 0: none
+  std::vector<bool> mapShown;       // by probe: lookups read its cube map, not the environment
+  std::vector<bool> levelsShown;    // by probe: lookups read its filtered levels
 };
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_,
@@ -139,7 +146,7 @@ RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& techniq
   fresnelLaw(technique.fresnel);
   if (technique.bounces < 1) throwInputError("a frame has at least one bounce iteration, got {}", technique.bounces);
   checkImageFits(device.limits, widthPx, heightPx, samplesPerAxis);
-  checkProbesFit(device.limits, technique, 1, false, widthPx, heightPx, samplesPerAxis);
+  checkProbesFit(device.limits, technique, 1, ProbeFilter::none, widthPx, heightPx, samplesPerAxis);
   device.context.makeCurrent();
   scenePass.emplace(device, technique);
   image.emplace(device.context, widthPx, heightPx, samplesPerAxis);
@@ -154,18 +161,19 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sc
   const std::vector<ProbeFace> due =
       isDynamic() ? dueFaces(technique.refresh, history, snapshot) : std::vector<ProbeFace>{};
   mapShown = mapsShownAtFirst(due, snapshot.probes.size());
-  levelsShown = probesOfRoughLobes(technique, snapshot);
+  levelsShown = probesWithLevels(technique, snapshot);
   scenePass->beginFrame(snapshot, passesOf(snapshot));
 
   Frame frame;
   FrameCounters& counters = frame.stats.counters;
   if (isDynamic())
-    counters.probeBytes = probeBytes(technique, static_cast<int>(snapshot.probes.size()), wantsLevels(snapshot));
+    counters.probeBytes =
+        probeBytes(technique, static_cast<int>(snapshot.probes.size()), levelFilter(technique, snapshot));
   counters.probeBytes += mirroredViewBytes(mirrors.size(), image->widthSamples(), image->heightSamples());
   frame.times.shadowMs = timed(passTimer, [&] { scenePass->drawShadows(counters); });
   updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
-  if (probes && viewsOfProbe(technique) > 1) fillMissingFaces(snapshot, counters);
   const std::vector<ProbeFace> captured = viewsOfProbe(technique) == 1 ? oneFaceEach(due) : due;
+  if (probes && viewsOfProbe(technique) > 1) fillMissingFaces(snapshot, counters);
   for (int b = 0; isDynamic() && b < technique.bounces; ++b)
     iterate(captured, b + 1 == technique.bounces, passTimer, frame);
   updateLevels(passTimer, frame);  // of maps in which nothing but the environment has changed
@@ -185,19 +193,20 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
   assert(history.frame == 0 || history.lastCapturedFrame.size() == snapshot.probes.size());
   if (!isDynamic() || probes || snapshot.probes.empty()) return;
   const int count = static_cast<int>(snapshot.probes.size());
-  const bool filtered = wantsLevels(snapshot);
-  checkProbesFit(device.limits, technique, count, filtered, widthPx, heightPx, samplesPerAxis);
+  const ProbeFilter levels = levelFilter(technique, snapshot);
+  checkMaps(technique, levels);
+  checkProbesFit(device.limits, technique, count, levels, widthPx, heightPx, samplesPerAxis);
   if (technique.hysteresis > 0.0f) captureHistory.emplace(device.context, device.programs, technique.hysteresis);
-  probes.emplace(device.context, device.programs, technique.resolution, count, viewsOfProbe(technique),
-                 technique.bounceOrder == BounceOrder::simultaneous, filtered ? technique.filter : ProbeFilter::none,
-                 needsDistances(technique));
-}
-
-// The same for all frames of a sequence: instances keep their materials, and one scene has the same number of probes.
-bool RasterSequence::Impl::wantsLevels(const Snapshot& snapshot) const {
-  if (mapFilter(technique) == ProbeFilter::none) return false;
-  const std::vector<bool> looked = probesOfRoughLobes(technique, snapshot);
-  return std::ranges::find(looked, true) != looked.end();
+  probes.emplace(device.context, device.programs,
+                 ProbeMaps::Settings{.resolution = technique.resolution,
+                                     .probes = count,
+                                     .views = viewsOfProbe(technique),
+                                     .doubleBuffered = technique.bounceOrder == BounceOrder::simultaneous,
+                                     .filter = levels,
+                                     .keepsDistances = needsDistances(technique),
+                                     .format = technique.format,
+                                     .storage = technique.storage,
+                                     .seamless = technique.seamless});
 }
 
 std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {
@@ -218,7 +227,9 @@ void RasterSequence::Impl::appendCapturePasses(const Snapshot& snapshot,
     const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];
     const shading::View view =
         isSingleView ? singleView(snapshot, probe) : cubeFaceView(probe.position, f.face, probe.zNear);
-    passes.push_back(passConstants(snapshot, view, technique.resolution, technique.resolution, kLargestHalf));
+    passes.push_back(passConstants(snapshot, view, technique.resolution, technique.resolution,
+                                   texelFormat(technique.format).largestRadiance));
+    passes.back().clip = farPlane(view, technique.captureFar);
   }
 }
 
@@ -244,7 +255,7 @@ void RasterSequence::Impl::fillMissingFaces(const Snapshot& snapshot, FrameCount
     scenePass->draw(capturePass(f), probes->target(f), shownProbes(f.probe), counters, FacePart::nothing);
     filled[static_cast<std::size_t>(f.probe)] = snapshot.environmentIndex + 1;
   }
-  if (!missing.empty()) probes->publish(missing);
+  if (!missing.empty()) counters.texelsFiltered += probes->publish(missing);
 }
 
 // One bounce iteration. The maps that lookups see next are filtered as soon as they are published.
@@ -254,7 +265,7 @@ void RasterSequence::Impl::iterate(const std::vector<ProbeFace>& due, bool isLas
   for (const auto& faces : technique.bounceOrder == BounceOrder::simultaneous ? Groups{due} : byProbe(due)) {
     captureMs += timed(passTimer, [&] {
       capture(faces, isLast, frame.stats.counters);
-      publish(faces);
+      publish(faces, frame.stats.counters);
     });
     updateLevels(passTimer, frame);
   }
@@ -275,9 +286,9 @@ void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, bool isL
   }
 }
 
-void RasterSequence::Impl::publish(const std::vector<ProbeFace>& faces) {
+void RasterSequence::Impl::publish(const std::vector<ProbeFace>& faces, FrameCounters& counters) {
   if (faces.empty()) return;
-  probes->publish(faces);
+  counters.texelsFiltered += probes->publish(faces);
   for (const ProbeFace& f : faces) mapShown[static_cast<std::size_t>(f.probe)] = true;
 }
 
@@ -310,6 +321,17 @@ std::vector<std::array<std::int64_t, 6>> RasterSequence::Impl::faceAges() const 
   for (std::array<std::int64_t, 6>& probe : ages)
     for (std::int64_t& age : probe) age = age < 0 ? -1 : rendered - age;
   return ages;
+}
+
+void RasterSequence::check(RasterDevice& device, const Technique& technique, const Snapshot& snapshot, int widthPx,
+                           int heightPx, int samplesPerAxis) {
+  ProbeLayout layout(technique);
+  const Snapshot& placed = layout.apply(snapshot);
+  mirroredViews(technique, placed);
+  const ProbeFilter levels = levelFilter(technique, placed);
+  checkMaps(technique, levels);
+  checkProbesFit(device.impl().limits, technique, static_cast<int>(placed.probes.size()), levels, widthPx, heightPx,
+                 samplesPerAxis);
 }
 
 RasterSequence::RasterSequence(RasterDevice& device, const Technique& technique, int widthPx, int heightPx,

@@ -76,6 +76,11 @@ class RasterDevice {
 // it.
 class RasterSequence {
  public:
+  // Throws the input Errors with which a sequence would refuse its first frame: settings that don't go together or
+  // don't fit the scene, memory.
+  static void check(RasterDevice& device, const Technique& technique, const Snapshot& snapshot, int widthPx,
+                    int heightPx, int samplesPerAxis);
+
   // Throws an input Error when the probes would not fit the device (size of a cube map, memory).
   RasterSequence(RasterDevice& device, const Technique& technique, int widthPx, int heightPx, int samplesPerAxis);
   ~RasterSequence();

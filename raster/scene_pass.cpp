@@ -9,6 +9,7 @@
 
 #include "raster/culling.h"
 #include "raster/lookup.h"
+#include "raster/plain_material.h"
 #include "raster/planar.h"
 #include "raster/probe_maps.h"
 #include "raster/proxy.h"
@@ -69,9 +70,9 @@ std::string areaLightDefines(const Snapshot& snapshot) {
   return mayHaveAreaLights(*snapshot.scene) ? "#define AREA_LIGHTS\n" : "";
 }
 
-// Of everything that a mirrored view may clip.
+// Of everything that a mirrored view or the far plane of captures may clip.
 std::string clipDefines(const Technique& technique) {
-  return lookupOf(technique.lookup).isPlanar ? "#define CLIP_PLANE\n" : "";
+  return lookupOf(technique.lookup).isPlanar || technique.captureFar > 0.0f ? "#define CLIP_PLANE\n" : "";
 }
 
 bool isClipped(const gpu::PassConstants& pass) { return glm::vec3(pass.clip) != glm::vec3(0.0f); }
@@ -88,6 +89,20 @@ std::string conductorDefines(const Material& material) {
 
 std::string shadowDefines(const Snapshot& snapshot) { return castsShadows(snapshot) ? "#define SHADOWS\n" : ""; }
 
+std::string lightDefines(const Snapshot& snapshot, bool showsLights) {
+  return showsLights ? shadowDefines(snapshot) + areaLightDefines(snapshot) : "#define NO_LIGHTS\n";
+}
+
+// How lookups read the maps of probes.
+std::string mapDefines(const Technique& technique, const Snapshot& snapshot) {
+  std::string defines;
+  if (technique.storage == Storage::octahedral) defines += "#define MAP_OCTAHEDRAL\n";
+  if (technique.storage == Storage::dualParaboloid) defines += "#define MAP_PARABOLOIDS\n";
+  if (!technique.mips) return defines;
+  const bool hasLobes = levelFilter(technique, snapshot) == ProbeFilter::ggxPrefiltered;
+  return defines + (hasLobes ? "#define MIPS\n#define MIPS_GGX\n" : "#define MIPS\n");
+}
+
 // Replaces the buffer's contents, and the buffer if `count`, the number of values in it, changes.
 template <class T>
 void write(const gl::Functions& gl, const std::vector<T>& values, std::size_t& count, gl::Buffer& buffer) {
@@ -101,14 +116,23 @@ void write(const gl::Functions& gl, const std::vector<T>& values, std::size_t& c
 // Sets the state of draws, leaving what is set already.
 class ScenePass::Binder {
  public:
-  Binder(const ScenePass& pass, const shading::View& view) : pass_(pass), gl_(pass.gl_), view_(view) {}
+  // Captures have reduced meshes and materials if the technique says so.
+  Binder(const ScenePass& pass, const shading::View& view, bool isCapture = false)
+      : pass_(pass),
+        gl_(pass.gl_),
+        view_(view),
+        share_(isCapture ? pass.technique_.captureLod : 1.0f),
+        isPlain_(isCapture && !pass.technique_.captureTextures),
+        isCapture_(isCapture) {}
+
+  bool isCapture() const { return isCapture_; }
 
   void bind(const Draw& draw, GLuint program) { bind(draw, program, pass_.facesOf(draw, view_)); }
 
   void bind(const Draw& draw, GLuint program, Faces faces) {
     if (program != program_) gl_.UseProgram(program_ = program);
     if (draw.mesh != mesh_) bindMesh(draw.mesh);
-    if (draw.material != material_) pass_.resources_->bindMaterial(material_ = draw.material);
+    if (draw.material != material_) bindMaterial(draw.material);
     setFacing(faces, frontFace(view_, pass_.snapshot_->instances[draw.instance].mirrored));
     pass_.instanceSlots_.bind(gpu::kInstanceBlock, draw.instance);
   }
@@ -116,8 +140,14 @@ class ScenePass::Binder {
  private:
   void bindMesh(const GpuMesh* mesh) {
     mesh_ = mesh;
-    gl_.BindVertexArray(mesh->vertexArray.id());
+    gl_.BindVertexArray(share_ < 1.0f ? mesh->simplified.at(share_).vertexArray.id() : mesh->vertexArray.id());
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kSmoothingGroupBlock, mesh->smoothingGroups.id());
+  }
+
+  void bindMaterial(int material) {
+    material_ = material;
+    if (isPlain_) return pass_.resources_->bindPlainMaterial(material);
+    pass_.resources_->bindMaterial(material);
   }
 
   void setFacing(Faces faces, GLenum front) {
@@ -132,6 +162,9 @@ class ScenePass::Binder {
   const ScenePass& pass_;
   const gl::Functions& gl_;
   const shading::View& view_;
+  const float share_;
+  const bool isPlain_;
+  const bool isCapture_;
   GLuint program_ = 0;
   const GpuMesh* mesh_ = nullptr;
   int material_ = -1;
@@ -153,6 +186,7 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   for (const SnapshotInstance& instance : snapshot.instances)
     reflections_.push_back(reflectionOf(technique_, snapshot, instance));
   resources_->showScreens(snapshot.screens);
+  if (!technique_.captureTextures) resources_->showPlainMaterials(snapshot.screens);
   uploadInstances();
   beginShadows();
   uploadLights();
@@ -206,6 +240,7 @@ std::vector<const ScenePass::Draw*> ScenePass::shadowCasters(const gpu::ShadowFa
 void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters,
                      FacePart shownPart) {
   beginPass(pass, target);
+  const bool isCapture = probes.hidden != kNoProbe;
   const std::vector<const Draw*> visible = visibleDraws(pass, probes.hidden, shownPart);
   const auto firstBlended = std::ranges::find_if(visible, [](const Draw* draw) { return draw->isBlended(); });
   const int rows = rowsOf(shownPart, target.heightPx);
@@ -219,10 +254,10 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownPr
   counters.draws += static_cast<std::int64_t>(visible.size()) + 1;
   counters.triangles += 1;
   for (const Draw* draw : visible) {
-    counters.triangles += draw->mesh->indexCount / 3;
+    counters.triangles += indexCount(*draw, isCapture) / 3;
     for (const Draw* part : readBehind(*draw, pass)) {
       ++counters.draws;
-      counters.triangles += part->mesh->indexCount / 3;
+      counters.triangles += indexCount(*part, isCapture) / 3;
     }
   }
   if (firstBlended == visible.end()) return;
@@ -249,21 +284,24 @@ void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t 
   const bool clips = isClipped(passes_[pass]);
   gl_.Disable(GL_CULL_FACE);
   if (clips) gl_.Enable(GL_CLIP_DISTANCE0);
-  Binder binder(*this, passes_[pass].view);
+  const bool isCapture = probes.hidden != kNoProbe;
+  Binder binder(*this, passes_[pass].view, isCapture);
   for (const Draw* draw : draws) {
-    const bool isCaptured = probes.hidden != kNoProbe && snapshot_->instances[draw->instance].probe == probes.hidden;
+    const bool isCaptured = isCapture && snapshot_->instances[draw->instance].probe == probes.hidden;
     const GLuint program = bindReflection(*draw, probes);
     if (draw->backFaces != 0) drawBackFaces(*draw, pass, binder);
     binder.bind(*draw, program, isCaptured ? Faces::back : facesOf(*draw, passes_[pass].view));
-    gl_.DrawElements(GL_TRIANGLES, draw->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+    drawTriangles(*draw, isCapture);
   }
   if (clips) gl_.Disable(GL_CLIP_DISTANCE0);  // other programs have no such distance
+  if (!technique_.seamless) gl_.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
 // Binds what the draw's specular lobe looks up, and returns the program that does. A map may not be read while it is
 // captured: by its owners, captured from inside, nor by what it is nearest to.
 GLuint ScenePass::bindReflection(const Draw& draw, const ShownProbes& probes) const {
   const Reflection& reflection = reflections_[draw.instance];
+  if (!technique_.seamless) gl_.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   const auto isShown = [&](int probe) {
     return probe != kNoProbe && probe != probes.hidden && probes.shown[static_cast<std::size_t>(probe)];
   };
@@ -274,16 +312,19 @@ GLuint ScenePass::bindReflection(const Draw& draw, const ShownProbes& probes) co
   }
   const bool showsFirst = draw.showingProbe != 0 && isShown(reflection.probe);
   const bool showsSecond = draw.showingBlend != 0 && isShown(reflection.second);
-  if (!showsFirst && !showsSecond) return draw.showingEnvironment;
+  const bool isCapture = probes.hidden != kNoProbe;
+  if (!showsFirst && !showsSecond) return isCapture ? draw.captured.showingEnvironment : draw.showingEnvironment;
   bindProbe(*probes.maps, showsFirst ? reflection.probe : reflection.second);
-  if (!showsFirst || !showsSecond) return draw.showingProbe;
+  if (!showsFirst || !showsSecond) return isCapture ? draw.captured.showingProbe : draw.showingProbe;
   probes.maps->bindSecond(reflection.second);
   if (probeSlots_.size() > 0) probeSlots_.bind(gpu::kSecondProbeBlock, static_cast<std::size_t>(reflection.second));
-  return draw.showingBlend;
+  return isCapture ? draw.captured.showingBlend : draw.showingBlend;
 }
 
 void ScenePass::bindProbe(const ProbeMaps& maps, int probe) const {
   maps.bind(probe);
+  // Of all cube maps that a draw reads; those that read probes read no others.
+  if (!technique_.seamless) gl_.Disable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   if (probeSlots_.size() > 0) probeSlots_.bind(gpu::kProbeBlock, static_cast<std::size_t>(probe));
 }
 
@@ -307,8 +348,8 @@ void ScenePass::drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder
   const bool clips = isClipped(passes_[pass]);
   if (clips) gl_.Disable(GL_CLIP_DISTANCE0);  // a way inside may end behind the plane
   for (const Draw* part : readBehind(draw, pass)) {
-    binder.bind(*part, part->backFaces, Faces::back);
-    gl_.DrawElements(GL_TRIANGLES, part->mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+    binder.bind(*part, binder.isCapture() ? part->captured.backFaces : part->backFaces, Faces::back);
+    drawTriangles(*part, binder.isCapture());
   }
   if (clips) gl_.Enable(GL_CLIP_DISTANCE0);
 }
@@ -346,19 +387,36 @@ bool ScenePass::drawsFit(const Snapshot& snapshot) const {
 void ScenePass::showShapes() {
   for (const Draw& draw : draws_)
     if (const auto& mesh = snapshot_->instances[draw.instance].mesh; mesh->isDeformed)
-      resources_->mesh(draw.instance, mesh, draw.backFaces != 0);
+      resources_->mesh(draw.instance, mesh, meshNeeds(snapshot_->instances[draw.instance], draw.backFaces != 0));
+}
+
+MeshNeeds ScenePass::meshNeeds(const SnapshotInstance& instance, bool hasBackFaces) const {
+  const std::vector<Instance>& instances = snapshot_->scene->instances;
+  return {.inwardDistances = hasBackFaces,
+          .share = technique_.captureLod,
+          .rest = instances[static_cast<std::size_t>(instance.source)].mesh.get()};
+}
+
+GLsizei ScenePass::indexCount(const Draw& draw, bool isCapture) const {
+  const bool isReduced = isCapture && technique_.captureLod < 1.0f;
+  return isReduced ? draw.mesh->simplified.at(technique_.captureLod).indexCount : draw.mesh->indexCount;
+}
+
+void ScenePass::drawTriangles(const Draw& draw, bool isCapture) const {
+  gl_.DrawElements(GL_TRIANGLES, indexCount(draw, isCapture), GL_UNSIGNED_INT, nullptr);
 }
 
 // Blended surfaces last, then sorted by what is dear to change. Nothing here may depend on addresses or GL names: the
 // order decides which of two coinciding surfaces is seen, and how many fragments pass.
 void ScenePass::buildDraws(const Snapshot& snapshot) {
   const int environmentSize = resources_->filterEnvironment(technique_.filter, device_.programs);
-  const std::string settings =
-      techniqueDefines(technique_) + shadowDefines(snapshot) + areaLightDefines(snapshot) + clipDefines(technique_);
+  const std::string settings = techniqueDefines(technique_) + clipDefines(technique_);
+  const std::string lights = lightDefines(snapshot, true);
+  const std::string capturedLights = lightDefines(snapshot, technique_.captureLights);
   const std::string environmentLevels = filterDefines(technique_.filter, environmentSize);
   const Lookup& lookup = lookupOf(technique_.lookup);
-  const std::string lookupDefines =
-      filterDefines(mapFilter(technique_), technique_.resolution) + lookup.defines(technique_.lookup);
+  const std::string lookupDefines = filterDefines(mapFilter(technique_), technique_.resolution) +
+                                    lookup.defines(technique_.lookup) + mapDefines(technique_, snapshot);
   const EnvironmentSource source = environmentSource(snapshot.environment(), technique_.textureFilter);
   background_ = device_.programs.background(source);
   drawnEnvironment_ = snapshot.environmentIndex;
@@ -367,7 +425,8 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
     const SnapshotInstance& instance = snapshot.instances[i];
     const Material& material = snapshot.materialOf(instance);
     const SurfaceVariant variant = variantOf(snapshot, instance);
-    const std::string defines = settings + refractionDefines(technique_, material) + conductorDefines(material);
+    const std::string ofMaterial = settings + refractionDefines(technique_, material) + conductorDefines(material);
+    const std::string defines = ofMaterial + lights;
     const bool hasBackFaces = readsBackFaces(technique_, material);
     const Reflection reflection = reflectionOf(technique_, snapshot, instance);
     const bool hasProbe = reflection.source == ReflectionSource::probe;
@@ -376,7 +435,7 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
          .material = instance.material,
          .instance = i,
          .source = instance.mesh,
-         .mesh = &resources_->mesh(i, instance.mesh, hasBackFaces),
+         .mesh = &resources_->mesh(i, instance.mesh, meshNeeds(instance, hasBackFaces)),
          .showingEnvironment = device_.programs.surfaceShowingEnvironment(variant, source, defines + environmentLevels),
          .showingProbe = hasProbe ? device_.programs.surfaceShowingProbe(variant, defines + lookupDefines) : 0,
          .showingBlend = reflection.second != kNoProbe
@@ -392,7 +451,19 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
          .isClosedGlass = isSolidGlass(material) && !material.doubleSided && isClosed(*instance.mesh),
          .isCapturedFromInside = isCapturedFromInside(technique_, material),
          .backFaces = hasBackFaces ? device_.programs.backFaces(variant) : 0,
-         .shadow = castsShadows(snapshot) ? device_.programs.shadow(variant) : 0});
+         .shadow = castsShadows(snapshot) ? device_.programs.shadow(variant) : 0,
+         .captured = {}});
+    Draw& draw = draws_.back();
+    const SurfaceVariant captured = technique_.captureTextures ? variant : plainVariant(variant, *instance.mesh);
+    const std::string capturedDefines = ofMaterial + capturedLights;
+    draw.captured.showingEnvironment =
+        device_.programs.surfaceShowingEnvironment(captured, source, capturedDefines + environmentLevels);
+    if (draw.showingProbe != 0)
+      draw.captured.showingProbe = device_.programs.surfaceShowingProbe(captured, capturedDefines + lookupDefines);
+    if (draw.showingBlend != 0)
+      draw.captured.showingBlend =
+          device_.programs.surfaceShowingProbe(captured, capturedDefines + lookupDefines + kBlendDefines);
+    if (hasBackFaces) draw.captured.backFaces = device_.programs.backFaces(captured);
     if (hasBackFaces && !backFaces_) backFaces_.emplace(device_.context, device_.limits);
   }
   std::ranges::sort(draws_, {},

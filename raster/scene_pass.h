@@ -64,6 +64,10 @@ class ScenePass {
     bool isCapturedFromInside;  // by its own probe
     GLuint backFaces;           // program that draws what its fragments read; 0 if they read none
     GLuint shadow;              // program that draws it to shadow maps; 0 if the scene casts no shadows
+    // In captures, which the technique may reduce.
+    struct Captured {
+      GLuint showingEnvironment = 0, showingProbe = 0, showingBlend = 0, backFaces = 0;
+    } captured;
 
     bool isBlended() const { return variant.coverage == shading::kAlphaBlend; }
   };
@@ -84,6 +88,9 @@ class ScenePass {
   void bindProbe(const ProbeMaps& maps, int probe) const;
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const Draw& draw, std::size_t pass) const;
+  MeshNeeds meshNeeds(const SnapshotInstance& instance, bool hasBackFaces) const;
+  GLsizei indexCount(const Draw& draw, bool isCapture) const;
+  void drawTriangles(const Draw& draw, bool isCapture) const;
   std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const;
   void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes);
   std::vector<const Draw*> readBehind(const Draw& draw, std::size_t pass) const;

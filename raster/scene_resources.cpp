@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "raster/inward_distance.h"
+#include "raster/plain_material.h"
+#include "raster/simplify.h"
 #include "scenes/dfg_table.h"
 
 namespace pb {
@@ -54,10 +56,18 @@ std::vector<Vertex> interleave(const Mesh& mesh) {
   return vertices;
 }
 
-void describeVertices(const gl::Functions& gl, const GpuMesh& mesh) {
-  const GLuint array = mesh.vertexArray.id();
+void describeInwardDistances(const gl::Functions& gl, const GpuMesh& mesh, GLuint array) {
+  constexpr auto kLocation = static_cast<GLuint>(kAttributes.size());
+  constexpr GLuint kBinding = 1;
+  gl.VertexArrayVertexBuffer(array, kBinding, mesh.inwardDistances.id(), 0, sizeof(float));
+  gl.EnableVertexArrayAttrib(array, kLocation);
+  gl.VertexArrayAttribFormat(array, kLocation, 1, GL_FLOAT, GL_FALSE, 0);
+  gl.VertexArrayAttribBinding(array, kLocation, kBinding);
+}
+
+void describeVertices(const gl::Functions& gl, const GpuMesh& mesh, GLuint array, const gl::Buffer& indices) {
   gl.VertexArrayVertexBuffer(array, 0, mesh.vertices.id(), 0, sizeof(Vertex));
-  gl.VertexArrayElementBuffer(array, mesh.indices.id());
+  gl.VertexArrayElementBuffer(array, indices.id());
   for (GLuint location = 0; location < kAttributes.size(); ++location) {
     const Attribute& attribute = kAttributes[location];
     gl.EnableVertexArrayAttrib(array, location);
@@ -118,24 +128,31 @@ GpuMesh::GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_)
       indexCount(static_cast<GLsizei>(source->indices.size())) {
   vertices.write(0, gl::bytesOf(interleave(*source)));
   indices.write(0, gl::bytesOf(source->indices));
-  describeVertices(gl, *this);
+  describeVertices(gl, *this, vertexArray.id(), indices);
+}
+
+void GpuMesh::simplify(const gl::Functions& gl, const Mesh& rest, float share) {
+  const std::vector<std::uint32_t> triangles = simplifiedTriangles(rest, share);
+  GpuTriangles made{gl::makeVertexArray(gl), gl::Buffer(gl, gl::bytesOf(triangles)),
+                    static_cast<GLsizei>(triangles.size())};
+  describeVertices(gl, *this, made.vertexArray.id(), made.indices);
+  if (inwardDistances.id() != 0) describeInwardDistances(gl, *this, made.vertexArray.id());
+  simplified.emplace(share, std::move(made));
 }
 
 void GpuMesh::addInwardDistances(const gl::Functions& gl) {
-  constexpr GLuint kLocation = 6;  // after kAttributes
-  constexpr GLuint kBinding = 1;
   if (inwardDistances.id() != 0) return;
   inwardDistances = gl::Buffer(gl, source->positions.size() * sizeof(float));
   inwardDistances.write(0, gl::bytesOf(pb::inwardDistances(*source)));
-  const GLuint array = vertexArray.id();
-  gl.VertexArrayVertexBuffer(array, kBinding, inwardDistances.id(), 0, sizeof(float));
-  gl.EnableVertexArrayAttrib(array, kLocation);
-  gl.VertexArrayAttribFormat(array, kLocation, 1, GL_FLOAT, GL_FALSE, 0);
-  gl.VertexArrayAttribBinding(array, kLocation, kBinding);
+  describeInwardDistances(gl, *this, vertexArray.id());
+  for (const auto& [share, triangles] : simplified) describeInwardDistances(gl, *this, triangles.vertexArray.id());
 }
 
 void GpuMesh::show(const std::shared_ptr<const Mesh>& shape) {
-  if (shape->indices != source->indices) indices.write(0, gl::bytesOf(shape->indices));
+  if (shape->indices != source->indices) {
+    indices.write(0, gl::bytesOf(shape->indices));
+    simplified.clear();
+  }
   source = shape;
   vertices.write(0, gl::bytesOf(interleave(*source)));
   if (inwardDistances.id() != 0) inwardDistances.write(0, gl::bytesOf(pb::inwardDistances(*source)));
@@ -158,7 +175,7 @@ SceneResources::SceneResources(gl::Context& context, std::shared_ptr<const Scene
 }
 
 const GpuMesh& SceneResources::mesh(std::size_t instance, const std::shared_ptr<const Mesh>& mesh,
-                                    bool wantsInwardDistances) {
+                                    const MeshNeeds& needs) {
   GpuMesh& gpuMesh = mesh->isDeformed ? deformed_.try_emplace(instance, gl_, mesh).first->second
                                       : meshes_.try_emplace(mesh.get(), gl_, mesh).first->second;
   // Compared by content: sequences that share a device show the scene at different times.
@@ -168,7 +185,12 @@ const GpuMesh& SceneResources::mesh(std::size_t instance, const std::shared_ptr<
     gpuMesh = GpuMesh(gl_, mesh);
   else if (gpuMesh.source->contentHash != mesh->contentHash)
     gpuMesh.show(mesh);
-  if (wantsInwardDistances) gpuMesh.addInwardDistances(gl_);
+  if (needs.inwardDistances) gpuMesh.addInwardDistances(gl_);
+  if (needs.share < 1.0f && !gpuMesh.simplified.contains(needs.share)) {
+    const bool restsAlike = needs.rest != nullptr && needs.rest->indices == mesh->indices &&
+                            needs.rest->positions.size() == mesh->positions.size();
+    gpuMesh.simplify(gl_, restsAlike ? *needs.rest : *mesh, needs.share);
+  }
   return gpuMesh;
 }
 
@@ -199,9 +221,17 @@ void SceneResources::bindScene() const {
 }
 
 void SceneResources::bindMaterial(int material) const {
-  const auto m = static_cast<std::size_t>(material);
-  materials_.bind(gpu::kMaterialBlock, m);
-  for (const Binding& binding : materialBindings_[m]) {
+  materials_.bind(gpu::kMaterialBlock, static_cast<std::size_t>(material));
+  bindTextures(material);
+}
+
+void SceneResources::bindPlainMaterial(int material) const {
+  plainMaterials_.bind(gpu::kMaterialBlock, static_cast<std::size_t>(material));
+  bindTextures(material);
+}
+
+void SceneResources::bindTextures(int material) const {
+  for (const Binding& binding : materialBindings_[static_cast<std::size_t>(material)]) {
     gl_.BindTextureUnit(binding.unit, binding.texture);
     gl_.BindSampler(binding.unit, binding.sampler);
   }
@@ -222,6 +252,14 @@ void SceneResources::makeScreens() {
     textures_.push_back(makeMaterialTexture(gl_, screen.widthPx, screen.heightPx, levels));
   }
   shownOnScreens_.resize(scene_->screens.size());
+}
+
+void SceneResources::showPlainMaterials(const std::vector<Texture>& screens) {
+  if (plainMaterials_.size() == 0)
+    plainMaterials_ = UniformSlots<shading::MaterialConstants>(context_, scene_->materials.size());
+  for (std::size_t m = 0; m < scene_->materials.size(); ++m)
+    plainMaterials_.set(m, plainConstants(*scene_, screens, scene_->materials[m]));
+  plainMaterials_.upload();
 }
 
 // Compared by content: sequences that share a device show the scene at different times.

@@ -17,6 +17,13 @@
 
 namespace pb {
 
+// Triangles to draw, with all vertex attributes.
+struct GpuTriangles {
+  gl::VertexArray vertexArray;
+  gl::Buffer indices;
+  GLsizei indexCount;
+};
+
 struct GpuMesh {
   GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_);
 
@@ -27,11 +34,21 @@ struct GpuMesh {
   gl::Buffer smoothingGroups;  // one uint a triangle
   gl::Buffer inwardDistances;  // one float a vertex, only after addInwardDistances()
   GLsizei indexCount;
+  std::map<float, GpuTriangles> simplified;  // by share of the triangles, of the same vertices
 
   // The vertex attribute of two-interface refraction (raster/inward_distance.h).
   void addInwardDistances(const gl::Functions& gl);
+  // Adds simplifiedTriangles(). rest: a mesh of the same topology.
+  void simplify(const gl::Functions& gl, const Mesh& rest, float share);
   // Takes another shape of the same topology.
   void show(const std::shared_ptr<const Mesh>& shape);
+};
+
+// What draws of an instance need besides its mesh.
+struct MeshNeeds {
+  bool inwardDistances = false;
+  float share = 1.0f;          // GpuMesh::simplified, if below 1
+  const Mesh* rest = nullptr;  // the instance's mesh before any deformation, which decides what is simplified
 };
 
 class SceneResources {
@@ -41,10 +58,13 @@ class SceneResources {
   const std::shared_ptr<const Scene>& scene() const { return scene_; }
 
   // The mesh of an instance, by its number in the snapshot. Uploaded when first asked for; what deforms is uploaded
-  // anew for another shape, into the same object. With its inward distances if they are wanted.
-  const GpuMesh& mesh(std::size_t instance, const std::shared_ptr<const Mesh>& mesh, bool wantsInwardDistances);
+  // anew for another shape, into the same object.
+  const GpuMesh& mesh(std::size_t instance, const std::shared_ptr<const Mesh>& mesh, const MeshNeeds& needs);
 
   SurfaceVariant variantOf(int material, const Mesh& mesh, TextureFilter filter) const;
+
+  // Makes what bindPlainMaterial() binds, for these pictures of the scene's screens (Snapshot::screens).
+  void showPlainMaterials(const std::vector<Texture>& screens);
 
   // Uploads the pictures of the scene's screens (Snapshot::screens) that are not shown already.
   void showScreens(const std::vector<Texture>& screens);
@@ -61,6 +81,8 @@ class SceneResources {
   void bindReflection(const Technique& technique);
   // Binds one material's constants, textures and samplers.
   void bindMaterial(int material) const;
+  // The same for draws of its plainVariant().
+  void bindPlainMaterial(int material) const;
 
  private:
   struct Binding {
@@ -75,6 +97,7 @@ class SceneResources {
     std::map<ProbeFilter, FilteredEnvironment> filtered;  // made when first asked for
   };
 
+  void bindTextures(int material) const;
   void uploadTextures();
   void makeScreens();
   void uploadMaterials(gl::Context& context);
@@ -92,6 +115,7 @@ class SceneResources {
   std::map<std::array<float, 4>, gl::Sampler> samplers_;
   std::vector<std::vector<Binding>> materialBindings_;  // by material
   UniformSlots<shading::MaterialConstants> materials_;
+  UniformSlots<shading::MaterialConstants> plainMaterials_;  // only for techniques that draw them
   UniformSlots<gpu::SceneConstants> constants_;
   std::vector<GpuEnvironment> environments_;  // made when first shown
   std::size_t shownEnvironment_ = 0;

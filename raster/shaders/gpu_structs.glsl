@@ -5,7 +5,7 @@ struct PassConstants {
   View view;
   vec4 image;   // x width and y height in samples, z largest radiance that the colour format holds
   vec4 lights;  // x number of punctual lights, y of area lights
-  vec4 clip;    // of mirrored views: only points with dot(xyz, p) + w >= 0 are drawn; 0 of all others
+  vec4 clip;    // of mirrored views and captures with a far plane: only points with dot(xyz, p) + w >= 0 are drawn; else 0
 };
 
 struct SceneConstants {

@@ -20,12 +20,12 @@ void main() {
     for (int i = 0; i < 2; ++i) {
       ivec2 p = 2 * texel.xy + ivec2(i, j);
 #ifdef SOLID_ANGLES
-      float weight = relativeSolidAngle(texelCentre(p, 2.0f * float(job.z)));
+      float weight = relativeSolidAngle(texelCentre(p, 2.0f * float(job.y)));
 #else
       float weight = 1.0f;
 #endif
-      sum += weight * vec3(texelFetch(source, ivec3(p, job.x + texel.z), job.w));
+      sum += weight * vec3(texelFetch(source, ivec3(p, texel.z), job.z));
       weights += weight;
     }
-  store(texel, sum / weights);
+  storeTexel(texel, sum / weights);
 }

@@ -14,7 +14,7 @@ layout(std140, binding = kLobeBlock) uniform LobeBlock { vec4 lobe[LOBE_SAMPLES]
 void main() {
   ivec3 texel = targetTexel();
   if (isOutside(texel)) return;
-  vec3 axis = safeNormalize(cubeDirection(texel.z, texelCentre(texel.xy, float(job.z))));
+  vec3 axis = safeNormalize(cubeDirection(texel.z, texelCentre(texel.xy, float(job.y))));
   // Turns continuously with the axis except at the poles, where no texel's centre lies.
   vec3 tangent = safeNormalize(vec3(axis.z, 0.0f, -axis.x));
   vec3 bitangent = cross(axis, tangent);
@@ -25,5 +25,5 @@ void main() {
     float largest = max(abs(d.x), max(abs(d.y), abs(d.z)));
     sum += vec3(textureLod(source, d, lobe[i].w - 1.5f * log2(largest)));
   }
-  store(texel, sum / float(LOBE_SAMPLES));
+  storeTexel(texel, sum / float(LOBE_SAMPLES));
 }

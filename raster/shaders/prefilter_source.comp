@@ -14,8 +14,8 @@ void main() {
   for (int j = 0; j < SUBTEXELS; ++j)
     for (int i = 0; i < SUBTEXELS; ++i) {
       ivec2 p = SUBTEXELS * texel.xy + ivec2(i, j);
-      vec2 st = texelCentre(p, float(SUBTEXELS * job.z));
+      vec2 st = texelCentre(p, float(SUBTEXELS * job.y));
       sum += environmentAlong(safeNormalize(cubeDirection(texel.z, st)));
     }
-  store(texel, sum / float(SUBTEXELS * SUBTEXELS));
+  storeTexel(texel, sum / float(SUBTEXELS * SUBTEXELS));
 }

@@ -2,8 +2,9 @@
 //
 // Variants by defines: ROUGH_LOBE for materials whose lobe is wider than a mirror's, with SMOOTH_TEXELS if not everywhere;
 // one of FILTER_GGX (number of levels above level 0) and FILTER_BOX (texels along an edge of level 0) if the cube map is
-// filtered, none for the technique filter = none; BLENDED_PROBES for surfaces between two probes, and those of
-// lookup_direction.glsl.
+// filtered, none for the technique filter = none; MIPS if smooth lobes read its levels, too, with
+// MIPS_GGX if they are those of FILTER_GGX; MAP_OCTAHEDRAL or
+// MAP_PARABOLOIDS if maps are no cubes; BLENDED_PROBES for surfaces between two probes, and those of lookup_direction.glsl.
 #include "raster/shaders/gloss_lod.glsl"
 
 #if defined(ROUGH_LOBE) && (defined(FILTER_GGX) || defined(FILTER_BOX))
@@ -11,8 +12,11 @@
 #endif
 
 #ifdef PROBE_LOOKUP
-#ifdef SINGLE_VIEW
+#if defined(SINGLE_VIEW)
 #define PROBE_SAMPLER sampler2D
+#elif defined(MAP_OCTAHEDRAL) || defined(MAP_PARABOLOIDS)
+#include "scenes/shading/probe_map.glsl"
+#define PROBE_SAMPLER sampler2DArray
 #else
 #define PROBE_SAMPLER samplerCube
 #endif
@@ -22,8 +26,18 @@ layout(binding = kSecondProbeUnit) uniform PROBE_SAMPLER secondProbe;
 #endif
 #include "raster/shaders/lookup_direction.glsl"
 
-#ifdef SINGLE_VIEW
+#if defined(SINGLE_VIEW)
 vec3 texelAlong(sampler2D map, vec3 st, float lod) { return vec3(textureLod(map, vec2(st), lod)); }
+#elif defined(MAP_OCTAHEDRAL)
+vec3 texelAlong(sampler2DArray map, vec3 d, float lod) {
+  vec2 at = borderedTextureCoordinates(octahedralCoordinates(d), textureSize(map, 0).x);
+  return vec3(textureLod(map, vec3(at, 0.0f), lod));
+}
+#elif defined(MAP_PARABOLOIDS)
+vec3 texelAlong(sampler2DArray map, vec3 d, float lod) {
+  vec2 at = borderedTextureCoordinates(paraboloidCoordinates(safeNormalize(d)), textureSize(map, 0).x);
+  return vec3(textureLod(map, vec3(at, d.y < 0.0f ? 1.0f : 0.0f), lod));
+}
 #else
 vec3 texelAlong(samplerCube map, vec3 d, float lod) { return vec3(textureLod(map, d, lod)); }
 #endif
@@ -35,7 +49,20 @@ vec3 radianceOfLevel(vec3 from, vec3 d, float lod) {
 #endif
   return radiance;
 }
+#ifdef MIPS
+#include "raster/shaders/footprint_lod.glsl"
+vec3 radianceAlong(vec3 from, vec3 d) {
+  vec3 first = FIRST_DIRECTION(from, d);
+  vec3 radiance = texelAlong(probe, first, footprintLod(probe, first));
+#ifdef BLENDED_PROBES
+  vec3 second = SECOND_DIRECTION(from, d);
+  radiance = mix(radiance, texelAlong(secondProbe, second, footprintLod(secondProbe, second)), instance.volume.y);
+#endif
+  return radiance;
+}
+#else
 vec3 radianceAlong(vec3 from, vec3 d) { return radianceOfLevel(from, d, 0.0f); }
+#endif
 #else
 #include "raster/shaders/environment_lookup.glsl"
 vec3 radianceAlong(vec3 from, vec3 d) { return environmentAlong(d); }
@@ -60,7 +87,12 @@ float lobeLod(float alpha) {
 vec3 lobeRadiance(vec3 from, vec3 d, float alpha) {
 #ifdef FILTERED_LOOKUP
 #ifdef SMOOTH_TEXELS
+#ifdef MIPS
+  vec3 smoothRadiance = radianceAlong(from, d);  // derivatives are undefined where fragments part
+  if (alpha == 0.0f) return smoothRadiance;
+#else
   if (alpha == 0.0f) return radianceAlong(from, d);
+#endif
 #endif
   return radianceOfLevel(from, d, lobeLod(alpha));
 #else

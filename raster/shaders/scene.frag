@@ -3,8 +3,8 @@
 //
 // Variants by defines, besides those of the included files: SURFACE_KIND (kSurface*), PROBE_LOOKUP for specular
 // surfaces that show their probe's cube map instead of the environment, ALPHA_MASK for surfaces with holes, ALPHA_BLEND for
-// those that cover partly and are composed later (layers.glsl), SHADOWS if lights have shadow maps, CONDUCTOR if the metal's index of refraction is known, and
-// AREA_LIGHTS if surfaces emit.
+// those that cover partly and are composed later (layers.glsl), NO_LIGHTS if lights are left out, SHADOWS if they have
+// shadow maps, CONDUCTOR if the metal's index of refraction is known, and AREA_LIGHTS if surfaces emit.
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
 #include "raster/shaders/surface_fetch.glsl"
@@ -41,6 +41,7 @@ layout(location = 0) out vec4 radiance;
 vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
   vec3 irradiance = vec3(0.0f);
   vec3 highlights = vec3(0.0f);
+#ifndef NO_LIGHTS
   int count = int(pass.lights.x);
 #ifdef SHADOWS
   vec3 triangle = triangleNormal();
@@ -61,6 +62,7 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
 #ifdef AREA_LIGHTS
   count = int(pass.lights.y);
   for (int i = 0; i < count; ++i) irradiance += areaLightIrradiance(areaLights[i], s.position, s.normal);
+#endif
 #endif
   return highlights + localRadiance(s, irradiance, ambientRadiance(scene.ambient, s.normal), coatAlbedo(s, dfg));
 }

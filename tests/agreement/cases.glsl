@@ -184,4 +184,7 @@ AGREEMENT_CASE(61, vec4(sphereProxyDirection(2.0f * vec3(a), unitVector(b), 1.0f
 AGREEMENT_CASE(62, vec4(boxProxyDirection(vec3(a), unitVector(b), vec3(-0.5f), vec3(1.5f), vec3(b)), 0.0f))
 AGREEMENT_CASE(63, vec4(impostorDirection(vec3(a), vec3(b), a.w), impostorExcess(vec3(b), a.w, b.w)))
 AGREEMENT_CASE(64, vec4(impostorSecant(vec2(a.x, -0.1f - a.y), vec2(1.0f + b.x, b.y)), singleViewCoordinates(vec2(a.z, a.w), vec2(b.z, b.w)), 0.0f))
+AGREEMENT_CASE(65, vec4(octahedralCoordinates(unitVector(a)), paraboloidCoordinates(unitVector(a))))
+AGREEMENT_CASE(66, vec4(octahedralDirection(2.2f * vec2(a) - vec2(1.1f)), 0.0f))
+AGREEMENT_CASE(67, vec4(paraboloidDirection(2.2f * vec2(a) - vec2(1.1f), a.z < 0.5f ? -1.0f : 1.0f), borderedTextureCoordinates(vec2(b), 34).x))
 AGREEMENT_CASES_END

@@ -7,6 +7,7 @@
 #include "scenes/shading/light.glsl"
 #include "scenes/shading/area_light.glsl"
 #include "scenes/shading/microfacet.glsl"
+#include "scenes/shading/probe_map.glsl"
 #include "scenes/shading/proxy.glsl"
 #include "scenes/shading/screen.glsl"
 #include "scenes/shading/srgb.glsl"

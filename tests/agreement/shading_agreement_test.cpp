@@ -50,6 +50,7 @@ struct Case {
 };
 
 #define PB_FUNC inline
+#include "scenes/shading/probe_map.glsl"
 #define AGREEMENT_CASES_BEGIN inline const std::vector<Case> kCases = {
 #define AGREEMENT_CASE(index, ...)                                                               \
   {index, []([[maybe_unused]] vec4 a, [[maybe_unused]] vec4 b, [[maybe_unused]] sampler2D image, \
@@ -155,6 +156,10 @@ const std::vector<Row> kRows = {
     {62, "boxProxyDirection", 1e-5, 0, "divisions by components of a direction"},
     {63, "impostorDirection, impostorExcess", kArithmetic, 0, "products"},
     {64, "impostorSecant, singleViewCoordinates", 1e-5, 0, "a division by at least 0.1"},
+    {65, "octahedralCoordinates, paraboloidCoordinates", kArithmetic, 1e-3,
+     "divisions; the octahedron's edges jump to their other half"},
+    {66, "octahedralDirection", kArithmetic, 0, "a normalised sum of numbers below 2"},
+    {67, "paraboloidDirection, borderedTextureCoordinates", kArithmetic, 0, "a division"},
 };
 
 std::vector<glm::vec4> makeInputs() {

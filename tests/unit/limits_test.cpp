@@ -37,18 +37,18 @@ Technique withResolution(int resolution) {
 
 TEST(Limits, AcceptWhatFitsExactly) {
   EXPECT_NO_THROW(checkImageFits(kDevice, 2048, 1, 2));
-  EXPECT_NO_THROW(checkProbesFit(kDevice, withResolution(1024), 1, false, 64, 64, 1));
-  EXPECT_NO_THROW(checkProbesFit(kDevice, withResolution(8), 10, false, 64, 64, 1));
+  EXPECT_NO_THROW(checkProbesFit(kDevice, withResolution(1024), 1, ProbeFilter::none, 64, 64, 1));
+  EXPECT_NO_THROW(checkProbesFit(kDevice, withResolution(8), 10, ProbeFilter::none, 64, 64, 1));
 }
 
 TEST(Limits, RefuseACubeMapThatIsTooLarge) {
-  EXPECT_THAT(messageOf([] { checkProbesFit(kDevice, withResolution(2048), 1, false, 64, 64, 1); }),
+  EXPECT_THAT(messageOf([] { checkProbesFit(kDevice, withResolution(2048), 1, ProbeFilter::none, 64, 64, 1); }),
               testing::AllOf(testing::HasSubstr("1024"), testing::HasSubstr("2048")));
 }
 
 TEST(Limits, RefuseProbesThatExceedTheMemory) {
   // 10 probes: 6 * 10 * 512^2 * 8 bytes = 120 MiB, and 1 MiB of depth.
-  EXPECT_THAT(messageOf([] { checkProbesFit(kDevice, withResolution(512), 10, false, 1, 1, 1); }),
+  EXPECT_THAT(messageOf([] { checkProbesFit(kDevice, withResolution(512), 10, ProbeFilter::none, 1, 1, 1); }),
               testing::AllOf(testing::HasSubstr("121 MiB"), testing::HasSubstr("64 MiB")));
 }
 
@@ -87,11 +87,11 @@ TEST(Limits, RefuseTexturesThatAreTooLarge) {
 
 TEST(ProbeBytes, CountBothBuffersOfSimultaneousBounces) {
   Technique technique = withResolution(16);
-  EXPECT_EQ(probeBytes(technique, 3, false), 3 * 6 * 16 * 16 * 8);
+  EXPECT_EQ(probeBytes(technique, 3, ProbeFilter::none), 3 * 6 * 16 * 16 * 8);
   technique.bounceOrder = BounceOrder::simultaneous;
-  EXPECT_EQ(probeBytes(technique, 3, false), 2 * 3 * 6 * 16 * 16 * 8);
+  EXPECT_EQ(probeBytes(technique, 3, ProbeFilter::none), 2 * 3 * 6 * 16 * 16 * 8);
   technique.probes = ProbeUse::environmentOnly;
-  EXPECT_EQ(probeBytes(technique, 3, false), 0);
+  EXPECT_EQ(probeBytes(technique, 3, ProbeFilter::none), 0);
 }
 
 }  // namespace

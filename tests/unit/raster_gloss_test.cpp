@@ -460,7 +460,7 @@ TEST(Reflection, OwnProbeThenNearestProbeThenEnvironment) {
   Technique technique;
   EXPECT_EQ(reflectionOf(technique, *snapshot, mirror).probe, mirror.probe);
   EXPECT_EQ(reflectionOf(technique, *snapshot, coated).probe, coated.nearestProbe);
-  EXPECT_EQ(probesOfRoughLobes(technique, *snapshot), std::vector<bool>{false});
+  EXPECT_EQ(probesWithLevels(technique, *snapshot), std::vector<bool>{false});
   technique.coats = Coats::none;
   EXPECT_EQ(reflectionOf(technique, *snapshot, coated).source, ReflectionSource::nothing);
   EXPECT_EQ(reflectionOf(technique, *snapshot, mirror).probe, mirror.probe);
