@@ -1,6 +1,7 @@
 #include "raster/limits.h"
 
 #include <algorithm>
+#include <map>
 
 #include "raster/gpu_structs.h"
 #include "raster/lookup.h"
@@ -62,6 +63,18 @@ std::int64_t probeBytes(const Technique& technique, int probes, ProbeFilter leve
   if (technique.hysteresis > 0.0f) bytes += captured * format.capturedBytes;
   if (needsDistances(technique)) bytes += (hasBack ? 2 : 1) * captured * kDepthBytes;
   return probes * bytes + filteredBytes(levels, technique.resolution, probes, format.shownBytes);
+}
+
+std::int64_t probeBytes(const Technique& technique, const std::vector<int>& resolutions, ProbeFilter levels) {
+  std::map<int, int> probes;  // by resolution
+  for (const int resolution : resolutions) ++probes[resolution];
+  std::int64_t bytes = 0;
+  for (const auto& [resolution, count] : probes) {
+    Technique ofThese = technique;
+    ofThese.resolution = resolution;
+    bytes += probeBytes(ofThese, count, levels);
+  }
+  return bytes;
 }
 
 std::int64_t mirroredViewBytes(std::size_t views, int widthSamples, int heightSamples) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "raster/technique.h"
 #include "scenes/scene.h"
@@ -23,6 +24,8 @@ void checkSceneFits(const DeviceLimits& limits, const Scene& scene);
 // Memory of the maps of `probes` probes, with their distances if the lookup reads them, what they are converted from,
 // and the filtered levels of that kind.
 std::int64_t probeBytes(const Technique& technique, int probes, ProbeFilter levels);
+// The same of probes that have that many texels along the edge of a face each.
+std::int64_t probeBytes(const Technique& technique, const std::vector<int>& resolutions, ProbeFilter levels);
 
 // Memory of the images of that many mirrored views, of so many samples each.
 std::int64_t mirroredViewBytes(std::size_t views, int widthSamples, int heightSamples);

@@ -1,34 +1,45 @@
 #include "raster/probe_maps.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pb {
 
 ProbeMaps::ProbeMaps(gl::Context& context, Programs& programs, const Settings& settings)
-    : gl_(context.functions()),
+    : context_(context),
+      gl_(context.functions()),
+      programs_(programs),
       settings_(settings),
       format_(texelFormat(settings.format)),
-      levels_(filteredLevels(settings.filter, settings.resolution)),
       depth_(gl::makeTexture(gl_, {.target = GL_TEXTURE_2D,
                                    .format = GL_DEPTH_COMPONENT32F,
-                                   .width = settings.resolution,
-                                   .height = settings.resolution})) {
-  for (int probe = 0; probe < settings.probes; ++probe) maps_.push_back(makeMap());
-  if (levels_ > 0) filter_.emplace(context, programs, settings.filter, format_, settings.resolution);
-  if (isConverted(settings.format, settings.storage))
-    conversion_.emplace(context, programs, settings.format, settings.storage, settings.resolution, settings.seamless);
+                                   .width = settings.largest,
+                                   .height = settings.largest})) {
+  for (const int resolution : settings.resolutions) maps_.push_back(makeMap(resolution));
   context.check("allocating cube maps");
   framebuffer_ = gl::makeLayerFramebuffer(gl_, maps_.front().captured(), depth_);
 }
 
-ProbeMaps::Map ProbeMaps::makeMap() const {
+ProbeMaps::Tools& ProbeMaps::toolsFor(int resolution) {
+  const auto [found, isNew] = tools_.try_emplace(resolution);
+  Tools& tools = found->second;
+  if (!isNew) return tools;
+  tools.levels = filteredLevels(settings_.filter, resolution);
+  if (tools.levels > 0) tools.filter.emplace(context_, programs_, settings_.filter, format_, resolution);
+  if (isConverted(settings_.format, settings_.storage))
+    tools.conversion.emplace(context_, programs_, settings_.format, settings_.storage, resolution, settings_.seamless);
+  return tools;
+}
+
+ProbeMaps::Map ProbeMaps::makeMap(int resolution) {
   Map map;
-  addShown(map);
+  map.resolution = resolution;
+  addShown(map, toolsFor(resolution).levels);
   if (settings_.doubleBuffered || isConverted(settings_.format, settings_.storage)) {
     map.back = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
                                      .format = format_.captured,
-                                     .width = settings_.resolution,
-                                     .height = settings_.resolution,
+                                     .width = resolution,
+                                     .height = resolution,
                                      .layers = settings_.views});
     if (settings_.storage != Storage::cube) map.backCube = gl::makeCubeView(map.back, format_.captured);
   }
@@ -36,20 +47,20 @@ ProbeMaps::Map ProbeMaps::makeMap() const {
   return map;
 }
 
-void ProbeMaps::addShown(Map& map) const {
-  const MapSquares squares = mapSquares(settings_.storage, settings_.resolution);
+void ProbeMaps::addShown(Map& map, int levels) const {
+  const MapSquares squares = mapSquares(settings_.storage, map.resolution);
   const int layers = settings_.views == 1 ? 1 : squares.count;
   map.shownLayers = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
                                           .format = format_.shown,
                                           .width = squares.edge,
                                           .height = squares.edge,
                                           .layers = layers,
-                                          .levels = levels_ + 1});
-  map.shownImage = makeImageView(map.shownLayers, format_, levels_ + 1, layers);
+                                          .levels = levels + 1});
+  map.shownImage = makeImageView(map.shownLayers, format_, levels + 1, layers);
   GLenum target = GL_TEXTURE_CUBE_MAP;
   if (settings_.views == 1) target = GL_TEXTURE_2D;
   if (settings_.storage != Storage::cube) target = GL_TEXTURE_2D_ARRAY;
-  map.shown = gl::makeView(map.shownLayers, {target, format_.shown, levels_ + 1, layers});
+  map.shown = gl::makeView(map.shownLayers, {target, format_.shown, levels + 1, layers});
 }
 
 void ProbeMaps::addDepths(Map& map) const {
@@ -57,8 +68,8 @@ void ProbeMaps::addDepths(Map& map) const {
   const auto makeDepths = [&] {
     gl::Texture depths = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
                                                .format = GL_DEPTH_COMPONENT32F,
-                                               .width = settings_.resolution,
-                                               .height = settings_.resolution,
+                                               .width = map.resolution,
+                                               .height = map.resolution,
                                                .layers = 6});
     gl_.ClearTexImage(depths.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &kFarthest);
     return depths;
@@ -76,7 +87,22 @@ void ProbeMaps::bind(int probe, int unit, int depthUnit) const {
 RenderTarget ProbeMaps::target(const ProbeFace& face) {
   gl::setColorLayer(framebuffer_, mapOf(face.probe).captured(), face.face);
   if (settings_.keepsDistances) gl::setDepthLayer(framebuffer_, mapOf(face.probe).capturedDepths(), face.face);
-  return {framebuffer_.id(), settings_.resolution, settings_.resolution};
+  return {framebuffer_.id(), mapOf(face.probe).resolution, mapOf(face.probe).resolution};
+}
+
+void ProbeMaps::resize(int probe, int resolution) {
+  const Map before = std::exchange(mapOf(probe), makeMap(resolution));
+  const gl::Framebuffer source = gl::makeLayerFramebuffer(gl_, before.captured(), depth_);
+  std::vector<ProbeFace> scaled;
+  for (int view = 0; view < settings_.views; ++view) {
+    gl::setColorLayer(source, before.captured(), view);
+    const RenderTarget to = target({probe, view});
+    gl_.BlitNamedFramebuffer(source.id(), to.framebuffer, 0, 0, before.resolution, before.resolution, 0, 0, to.widthPx,
+                             to.heightPx, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    scaled.push_back({probe, view});
+  }
+  publish(scaled);
+  context_.check("allocating cube maps");
 }
 
 std::int64_t ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
@@ -89,9 +115,9 @@ std::int64_t ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
     map.unfiltered |= changed[probe];
     for (int face = 0; face < 6; ++face)
       if (map.back.id() != 0 && (changed[probe] >> face & 1u) != 0) copyToShown(map, face);
-    if (conversion_)
-      converted += conversion_->run(map.backCube.id() != 0 ? map.backCube : map.back, map.shownLayers, map.shownImage,
-                                    changed[probe]);
+    if (const auto& conversion = toolsFor(map.resolution).conversion)
+      converted += conversion->run(map.backCube.id() != 0 ? map.backCube : map.back, map.shownLayers, map.shownImage,
+                                   changed[probe]);
   }
   // Single-buffered captures are read in the texture that they were drawn to.
   if (maps_.front().back.id() == 0) gl_.TextureBarrier();
@@ -102,14 +128,14 @@ std::int64_t ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
 void ProbeMaps::copyToShown(const Map& map, int face) const {
   const auto copy = [&](const gl::Texture& from, const gl::Texture& to) {
     gl_.CopyImageSubData(from.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face, to.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face,
-                         settings_.resolution, settings_.resolution, 1);
+                         map.resolution, map.resolution, 1);
   };
-  if (!conversion_) copy(map.back, map.shownLayers);
+  if (!isConverted(settings_.format, settings_.storage)) copy(map.back, map.shownLayers);
   if (settings_.keepsDistances) copy(map.backDepths, map.shownDepthLayers);
 }
 
 bool ProbeMaps::isStale(const std::vector<bool>& wanted) const {
-  if (!filter_) return false;
+  if (settings_.filter == ProbeFilter::none) return false;
   for (std::size_t probe = 0; probe < maps_.size(); ++probe)
     if (wanted[probe] && maps_[probe].unfiltered != 0) return true;
   return false;
@@ -121,7 +147,8 @@ std::int64_t ProbeMaps::filter(const std::vector<bool>& wanted) {
   for (std::size_t probe = 0; probe < maps_.size(); ++probe) {
     Map& map = maps_[probe];
     if (!wanted[probe] || map.unfiltered == 0) continue;
-    texels += filter_->run(map.shownLayers, map.shownImage, map.unfiltered);
+    if (auto& filter = toolsFor(map.resolution).filter)
+      texels += filter->run(map.shownLayers, map.shownImage, map.unfiltered);
     map.unfiltered = 0;
   }
   return texels;
@@ -130,7 +157,7 @@ std::int64_t ProbeMaps::filter(const std::vector<bool>& wanted) {
 std::array<Image, 6> ProbeMaps::read(int probe, int level) const {
   const Map& map = mapOf(probe);
   const gl::Texture& layers = settings_.storage == Storage::cube ? map.shownLayers : map.back;
-  const int size = std::max(settings_.resolution >> level, 1);
+  const int size = std::max(map.resolution >> level, 1);
   const std::size_t texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   const auto views = static_cast<std::size_t>(settings_.views);
   std::vector<glm::vec3> faces(views * texels);

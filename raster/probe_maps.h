@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace pb {
 class ProbeMaps {
  public:
   struct Settings {
-    int resolution;
-    int probes;
+    std::vector<int> resolutions;            // by probe: texels along the edge of a face
+    int largest;                             // that any will have
     int views = 6;                           // 1 for maps that are one picture instead of a cube
     bool doubleBuffered = false;             // what is shown is kept apart from what is captured until publish()
     ProbeFilter filter = ProbeFilter::none;  // none if nothing looks up other levels than level 0
@@ -32,6 +33,9 @@ class ProbeMaps {
   // Lookups of the draws that follow read what that probe shows, and what a second one shows if they blend two.
   void bind(int probe) const { bind(probe, gpu::kProbeUnit, gpu::kProbeDepthUnit); }
   void bindSecond(int probe) const { bind(probe, gpu::kSecondProbeUnit, gpu::kSecondProbeDepthUnit); }
+
+  // Makes a map anew with another number of texels. What it shows is scaled, until all of its faces are captured.
+  void resize(int probe, int resolution);
 
   // Attaches the face for capture, with a depth buffer that all faces share unless distances are kept.
   RenderTarget target(const ProbeFace& face);
@@ -53,6 +57,7 @@ class ProbeMaps {
 
  private:
   struct Map {
+    int resolution;
     gl::Texture shownLayers;  // the six faces with their levels, or another map's squares
     gl::Texture shownImage;   // makeImageView()
     gl::Texture shown;        // the same as lookups read it
@@ -69,8 +74,16 @@ class ProbeMaps {
     const gl::Texture& capturedDepths() const { return back.id() != 0 ? backDepths : shownDepthLayers; }
   };
 
-  Map makeMap() const;
-  void addShown(Map& map) const;
+  // What works on maps of one resolution.
+  struct Tools {
+    int levels;  // above level 0
+    std::optional<CubeFilter> filter;
+    std::optional<MapConversion> conversion;
+  };
+
+  Map makeMap(int resolution);
+  Tools& toolsFor(int resolution);
+  void addShown(Map& map, int levels) const;
   void addDepths(Map& map) const;
   void bind(int probe, int unit, int depthUnit) const;
   Map& mapOf(int probe) { return maps_[static_cast<std::size_t>(probe)]; }
@@ -78,15 +91,15 @@ class ProbeMaps {
 
   void copyToShown(const Map& map, int face) const;
 
+  gl::Context& context_;
   const gl::Functions& gl_;
+  Programs& programs_;
   const Settings settings_;
   const TexelFormat format_;
-  int levels_;  // above level 0
+  std::map<int, Tools> tools_;  // by resolution
   std::vector<Map> maps_;
   gl::Texture depth_;
   gl::Framebuffer framebuffer_;
-  std::optional<CubeFilter> filter_;
-  std::optional<MapConversion> conversion_;
 };
 
 }  // namespace pb

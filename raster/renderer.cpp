@@ -16,6 +16,7 @@
 #include "raster/planar_images.h"
 #include "raster/probe_layout.h"
 #include "raster/probe_maps.h"
+#include "raster/probe_resolution.h"
 #include "raster/proxy.h"
 #include "raster/reflection.h"
 #include "raster/refresh/policies.h"
@@ -99,6 +100,8 @@ struct RasterSequence::Impl {
   bool isDynamic() const { return technique.probes == ProbeUse::dynamic && capturesMaps; }
   ShownProbes shownProbes(int hidden) const { return {probes ? &*probes : nullptr, mapShown, hidden}; }
   void allocateProbes(const Snapshot& snapshot);
+  void resizeProbes(const Snapshot& snapshot);
+  gpu::PassConstants finalPass(const Snapshot& snapshot) const;
   std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
   void appendCapturePasses(const Snapshot& snapshot, std::vector<gpu::PassConstants>& passes) const;
   std::vector<bool> mapsShownAtFirst(const std::vector<ProbeFace>& due, std::size_t probeCount) const;
@@ -119,6 +122,7 @@ struct RasterSequence::Impl {
   std::optional<ScenePass> scenePass;
   std::optional<FinalImage> image;
   std::optional<ProbeMaps> probes;
+  std::vector<int> resolutions;                  // by probe, of this frame
   std::optional<CaptureHistory> captureHistory;  // with hysteresis
   std::optional<PassTimer> timer;
   ProbeLayout layout;
@@ -158,17 +162,16 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sc
   mirrors = mirroredViews(technique, snapshot);
   capturesMaps = looksUpMaps(technique, snapshot);
   allocateProbes(snapshot);
+  resizeProbes(snapshot);
   const std::vector<ProbeFace> due =
       isDynamic() ? dueFaces(technique.refresh, history, snapshot) : std::vector<ProbeFace>{};
   mapShown = mapsShownAtFirst(due, snapshot.probes.size());
   levelsShown = probesWithLevels(technique, snapshot);
-  scenePass->beginFrame(snapshot, passesOf(snapshot));
+  scenePass->beginFrame(snapshot, passesOf(snapshot), resolutions);
 
   Frame frame;
   FrameCounters& counters = frame.stats.counters;
-  if (isDynamic())
-    counters.probeBytes =
-        probeBytes(technique, static_cast<int>(snapshot.probes.size()), levelFilter(technique, snapshot));
+  if (isDynamic()) counters.probeBytes = probeBytes(technique, resolutions, levelFilter(technique, snapshot));
   counters.probeBytes += mirroredViewBytes(mirrors.size(), image->widthSamples(), image->heightSamples());
   frame.times.shadowMs = timed(passTimer, [&] { scenePass->drawShadows(counters); });
   updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
@@ -197,9 +200,10 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
   checkMaps(technique, levels);
   checkProbesFit(device.limits, technique, count, levels, widthPx, heightPx, samplesPerAxis);
   if (technique.hysteresis > 0.0f) captureHistory.emplace(device.context, device.programs, technique.hysteresis);
+  resolutions = probeResolutions(technique, snapshot, heightPx);
   probes.emplace(device.context, device.programs,
-                 ProbeMaps::Settings{.resolution = technique.resolution,
-                                     .probes = count,
+                 ProbeMaps::Settings{.resolutions = resolutions,
+                                     .largest = technique.resolution,
                                      .views = viewsOfProbe(technique),
                                      .doubleBuffered = technique.bounceOrder == BounceOrder::simultaneous,
                                      .filter = levels,
@@ -209,9 +213,24 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
                                      .seamless = technique.seamless});
 }
 
+// Probes whose resolution changes are due with all of their faces, and show until then what they showed before.
+void RasterSequence::Impl::resizeProbes(const Snapshot& snapshot) {
+  const std::vector<int> wanted = probeResolutions(technique, snapshot, heightPx);
+  for (std::size_t probe = 0; probes && probe < wanted.size(); ++probe) {
+    if (resolutions[probe] == wanted[probe]) continue;
+    probes->resize(static_cast<int>(probe), wanted[probe]);
+    history.lastCapturedFrame[probe].fill(-1);
+    if (probe < filled.size()) filled[probe] = 0;
+  }
+  resolutions = wanted;
+}
+
+gpu::PassConstants RasterSequence::Impl::finalPass(const Snapshot& snapshot) const {
+  return passConstants(snapshot, snapshot.camera, image->widthSamples(), image->heightSamples(), kUnlimited);
+}
+
 std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {
-  std::vector<gpu::PassConstants> passes = {
-      passConstants(snapshot, snapshot.camera, image->widthSamples(), image->heightSamples(), kUnlimited)};
+  std::vector<gpu::PassConstants> passes = {finalPass(snapshot)};
   if (probes) appendCapturePasses(snapshot, passes);
   for (const MirroredView& mirror : mirrors) {
     passes.push_back(passConstants(snapshot, mirror.view, image->widthSamples(), image->heightSamples(), kLargestHalf));
@@ -227,8 +246,9 @@ void RasterSequence::Impl::appendCapturePasses(const Snapshot& snapshot,
     const Probe& probe = snapshot.probes[static_cast<std::size_t>(f.probe)];
     const shading::View view =
         isSingleView ? singleView(snapshot, probe) : cubeFaceView(probe.position, f.face, probe.zNear);
-    passes.push_back(passConstants(snapshot, view, technique.resolution, technique.resolution,
-                                   texelFormat(technique.format).largestRadiance));
+    const int resolution = resolutions[static_cast<std::size_t>(f.probe)];
+    passes.push_back(
+        passConstants(snapshot, view, resolution, resolution, texelFormat(technique.format).largestRadiance));
     passes.back().clip = farPlane(view, technique.captureFar);
   }
 }
@@ -374,7 +394,9 @@ Grid<SampleId> RasterSequence::renderIds(const Snapshot& snapshot) {
   gl::Context& context = impl_->device.context;
   context.makeCurrent();
   IdImage ids(context, impl_->image->widthSamples(), impl_->image->heightSamples());
-  impl_->scenePass->beginFrame(snapshot, impl_->passesOf(snapshot));
+  // The scene's own instances, without the technique's probes.
+  const std::vector<int> resolutions(snapshot.probes.size(), impl_->technique.resolution);
+  impl_->scenePass->beginFrame(snapshot, {impl_->finalPass(snapshot)}, resolutions);
   impl_->scenePass->drawIds(kFinalPass, ids.target());
   Grid<SampleId> result = ids.read();
   context.check("rendering ids");

@@ -175,12 +175,13 @@ class ScenePass::Binder {
 ScenePass::ScenePass(RasterDevice::Impl& device, const Technique& technique)
     : device_(device), gl_(device.context.functions()), technique_(technique), noVertices_(gl::makeVertexArray(gl_)) {}
 
-void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes) {
+void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes,
+                           const std::vector<int>& probeResolutions) {
   snapshot_ = &snapshot;
   const bool isNewScene = !resources_ || resources_->scene() != snapshot.scene;
   if (isNewScene) resources_ = device_.resourcesOf(snapshot.scene);
   resources_->showEnvironment(snapshot.environmentIndex);
-  if (isNewScene || !drawsFit(snapshot)) buildDraws(snapshot);
+  if (isNewScene || !drawsFit(snapshot, probeResolutions)) buildDraws(snapshot, probeResolutions);
   showShapes();
   reflections_.clear();
   for (const SnapshotInstance& instance : snapshot.instances)
@@ -375,8 +376,8 @@ void ScenePass::drawIds(std::size_t pass, const RenderTarget& target) {
 }
 
 // A deforming instance keeps its draw whatever its shape: topology is the same.
-bool ScenePass::drawsFit(const Snapshot& snapshot) const {
-  if (drawnEnvironment_ != snapshot.environmentIndex) return false;
+bool ScenePass::drawsFit(const Snapshot& snapshot, const std::vector<int>& probeResolutions) const {
+  if (drawnEnvironment_ != snapshot.environmentIndex || drawnResolutions_ != probeResolutions) return false;
   return draws_.size() == snapshot.instances.size() && std::ranges::all_of(draws_, [&](const Draw& draw) {
            const SnapshotInstance& instance = snapshot.instances[draw.instance];
            const bool deforms = draw.source->isDeformed && instance.mesh->isDeformed;
@@ -408,18 +409,18 @@ void ScenePass::drawTriangles(const Draw& draw, bool isCapture) const {
 
 // Blended surfaces last, then sorted by what is dear to change. Nothing here may depend on addresses or GL names: the
 // order decides which of two coinciding surfaces is seen, and how many fragments pass.
-void ScenePass::buildDraws(const Snapshot& snapshot) {
+void ScenePass::buildDraws(const Snapshot& snapshot, const std::vector<int>& probeResolutions) {
   const int environmentSize = resources_->filterEnvironment(technique_.filter, device_.programs);
   const std::string settings = techniqueDefines(technique_) + clipDefines(technique_);
   const std::string lights = lightDefines(snapshot, true);
   const std::string capturedLights = lightDefines(snapshot, technique_.captureLights);
   const std::string environmentLevels = filterDefines(technique_.filter, environmentSize);
   const Lookup& lookup = lookupOf(technique_.lookup);
-  const std::string lookupDefines = filterDefines(mapFilter(technique_), technique_.resolution) +
-                                    lookup.defines(technique_.lookup) + mapDefines(technique_, snapshot);
+  const std::string mapLookup = lookup.defines(technique_.lookup) + mapDefines(technique_, snapshot);
   const EnvironmentSource source = environmentSource(snapshot.environment(), technique_.textureFilter);
   background_ = device_.programs.background(source);
   drawnEnvironment_ = snapshot.environmentIndex;
+  drawnResolutions_ = probeResolutions;
   draws_.clear();
   for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
     const SnapshotInstance& instance = snapshot.instances[i];
@@ -430,6 +431,10 @@ void ScenePass::buildDraws(const Snapshot& snapshot) {
     const bool hasBackFaces = readsBackFaces(technique_, material);
     const Reflection reflection = reflectionOf(technique_, snapshot, instance);
     const bool hasProbe = reflection.source == ReflectionSource::probe;
+    // Levels of a second probe are read as those of the first.
+    const int resolution =
+        hasProbe ? probeResolutions[static_cast<std::size_t>(reflection.probe)] : technique_.resolution;
+    const std::string lookupDefines = filterDefines(mapFilter(technique_), resolution) + mapLookup;
     draws_.push_back(
         {.variant = variant,
          .material = instance.material,

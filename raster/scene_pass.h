@@ -34,7 +34,8 @@ class ScenePass {
   ScenePass(RasterDevice::Impl& device, const Technique& technique);
 
   // Uploads what changes from frame to frame: transforms, lights and the views of the frame's passes.
-  void beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes);
+  void beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes,
+                  const std::vector<int>& probeResolutions);
 
   // The frame's shadow maps, before what shows them.
   void drawShadows(FrameCounters& counters);
@@ -74,8 +75,8 @@ class ScenePass {
   enum class Faces { both, front, back };
   class Binder;
 
-  void buildDraws(const Snapshot& snapshot);
-  bool drawsFit(const Snapshot& snapshot) const;
+  void buildDraws(const Snapshot& snapshot, const std::vector<int>& probeResolutions);
+  bool drawsFit(const Snapshot& snapshot, const std::vector<int>& probeResolutions) const;
   void showShapes();
   void beginShadows();
   std::vector<const Draw*> shadowCasters(const gpu::ShadowFace& face) const;
@@ -105,6 +106,7 @@ class ScenePass {
   std::vector<Reflection> reflections_;  // by instance
   GLuint background_ = 0;
   std::size_t drawnEnvironment_ = 0;  // for which the draws were built
+  std::vector<int> drawnResolutions_;
   gl::VertexArray noVertices_;
   const Snapshot* snapshot_ = nullptr;  // between beginFrame() and the last pass of the frame
   std::vector<gpu::PassConstants> passes_;

@@ -214,5 +214,67 @@ TEST_P(RasterCapture, OfSplitParts_ShowsTheOtherPart) {
   EXPECT_EQ(split.readImage(), before);
 }
 
+// The box around a ball of 0.8 m has a diagonal of 2.77 m; from 3 m away, under 0.8 rad and in 64 pixels it is 70
+// pixels across, ten times as far away 7.
+Snapshot seenFromTenTimesAsFar(const Snapshot& snapshot) {
+  Snapshot far = snapshot;
+  far.camera.origin.z *= 10.0f;
+  return far;
+}
+
+Technique byDistance(int most) {
+  Technique technique = withResolution(most);
+  technique.resolutionScale = ResolutionScale::distance;
+  return technique;
+}
+
+TEST_P(RasterCapture, ByDistance_EqualsThatResolutionChosenByHand) {
+  for (const float roughness : {0.0f, 0.4f})
+    for (const ProbeFilter filter : {ProbeFilter::boxMips, ProbeFilter::ggxPrefiltered}) {
+      Scene scene = makeBall(kBlack, makeMetalMaterial("metal", vec3(0.2f), vec3(3.0f), roughness));
+      scene.nodes.back().probe.emplace();
+      addBox(scene, vec3(0, 0, 4), vec3(2, 1, 1), makeUnlit(kRed));
+      const Snapshot far = seenFromTenTimesAsFar(*snapshotOf(std::move(scene)));
+      Technique scaled = byDistance(64), fixed = withResolution(8);
+      scaled.filter = fixed.filter = filter;
+      EXPECT_EQ(render(far, scaled), render(far, fixed)) << roughness;
+    }
+}
+
+TEST_P(RasterCapture, ByDistance_AChangeOfResolutionMakesAllFacesDue) {
+  const auto near = snapshotOf(makeRoom());
+  const Snapshot far = seenFromTenTimesAsFar(*near);
+  Technique technique = byDistance(64);
+  technique.refresh = parseSpec("static");
+  technique.faces = CapturedFaces::noTopBottom;
+  RasterSequence sequence(device(), technique, 64, 64, 1);
+  EXPECT_EQ(sequence.renderFrame(*near).counters.probeBytes, 6 * 64 * 64 * 8);
+  const FrameCounters counters = sequence.renderFrame(far).counters;
+  EXPECT_EQ(counters.facesCaptured, 4);
+  EXPECT_EQ(counters.probeBytes, 6 * 8 * 8 * 8);
+  EXPECT_EQ(sequence.readProbe(0)[0].width(), 8);
+  EXPECT_TRUE(isAll(sequence.readProbe(0)[kTop], 0, 7, kEnvironment));
+  EXPECT_EQ(sequence.renderFrame(far).counters.facesCaptured, 0);
+  EXPECT_EQ(sequence.renderFrame(*near).counters.facesCaptured, 4);
+}
+
+// What a map shows is scaled with it: the second mirror's capture shows the first one's map of the frame before.
+TEST_P(RasterCapture, ByDistance_MapsKeepWhatTheyShowUntilTheyAreCaptured) {
+  Scene scene = makeBall(kWhite, makeMirrorMaterial("mirror"));
+  addBox(scene, vec3(0, 0, 20), vec3(1), makeMirrorMaterial("mirror"));
+  const auto near = snapshotOf(std::move(scene));
+  for (const auto format : {ProbeFormat::rgba16f, ProbeFormat::rgb9e5}) {
+    Technique technique = byDistance(64);
+    technique.bounceOrder = BounceOrder::simultaneous;
+    technique.format = format;
+    RasterSequence sequence(device(), technique, 64, 64, 1);
+    sequence.renderFrame(*near);
+    const Image before = sequence.readImage();
+    sequence.renderFrame(seenFromTenTimesAsFar(*near));
+    sequence.renderFrame(*near);
+    EXPECT_LT(largestDifference(sequence.readImage(), before), 1e-2f) << "all is white";
+  }
+}
+
 }  // namespace
 }  // namespace pb
