@@ -7,6 +7,7 @@
 #include <cassert>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <set>
 
 #include "bench/axes.h"
