@@ -29,23 +29,26 @@ float screenSize(const Snapshot& snapshot, const Probe& probe) {
   return isOutsideFrustum(bounds, snapshot.camera) ? 0.0f : std::min(projectedSize(snapshot, bounds), 1.0f);
 }
 
-bool hasChanged(const RefreshHistory& history, std::size_t instance, std::uint64_t hash, std::int64_t since) {
+bool hasChanged(const RefreshHistory& history, const Snapshot& snapshot, std::size_t instance, std::int64_t since) {
   return instance >= history.instances.size() || history.lastChangedFrame[instance] > since ||
-         history.instances[instance] != hash;
+         history.instances[instance] != instanceHash(snapshot, snapshot.instances[instance]);
 }
 
 // Share of a face's solid angle, 4 pi / 6, that bounding spheres of instances cover which have changed since the
-// capture: pi r^2 / d^2 each, 1 at most. What has left the face's view counts as the least.
+// capture: pi r^2 / d^2 each, 1 at most. What has left the face's view counts as the least, and an owner that
+// moves, with its probe, as all.
 float motion(const RefreshHistory& history, const Snapshot& snapshot, const ProbeFace& f, const FaceContent& content) {
   const auto probe = static_cast<std::size_t>(f.probe);
   const auto face = static_cast<std::size_t>(f.face);
   if (history.contentAtCapture[probe][face] == content.hash) return 0.0f;
+  const auto hasChangedSinceCapture = [&](int i) {
+    return hasChanged(history, snapshot, static_cast<std::size_t>(i), history.lastCapturedFrame[probe][face]);
+  };
+  if (std::ranges::any_of(snapshot.probes[probe].owners, hasChangedSinceCapture)) return 1.0f;
   float share = kLeast;
   for (const int i : content.instances) {
+    if (!hasChangedSinceCapture(i)) continue;
     const SnapshotInstance& instance = snapshot.instances[static_cast<std::size_t>(i)];
-    if (!hasChanged(history, static_cast<std::size_t>(i), instanceHash(snapshot, instance),
-                    history.lastCapturedFrame[probe][face]))
-      continue;
     const float radius = 0.5f * glm::length(instance.worldBounds.extent());
     const float distance = glm::distance(instance.worldBounds.centre(), snapshot.probes[probe].position);
     share += 1.5f * radius * radius / std::max({distance * distance, radius * radius, 1e-30f});

@@ -378,6 +378,15 @@ TEST(Budget, CapturesWhatMovesAndWhatIsLargeMoreOften) {
   EXPECT_GT(captures(0, kPlusZ), 2 * captures(2, kPlusZ)) << "probe 0 is large in the picture";
 }
 
+TEST(Budget, CapturesProbesThatMoveMoreOften) {
+  Snapshot snapshot = makeProbes(3);
+  snapshot.camera = cubeFaceView({0.0f, 0.0f, 4.0f}, 4, 0.1f);  // looks away
+  const auto ages = agesUnderBudget("budget?faces=3", snapshot, 300, [](Snapshot& s, int frame) {
+    place(s, 0, {0.0f, 0.01f * static_cast<float>(frame % 7), 0.0f});
+  });
+  EXPECT_GT(ages.at({0, kPlusZ}).size(), 2 * ages.at({2, kPlusZ}).size());
+}
+
 TEST(Budget, IsRoundRobinWhileNothingMovesAndAllAreAlike) {
   Snapshot snapshot = makeProbes(2);
   snapshot.camera = cubeFaceView({0.0f, 0.0f, 4.0f}, 4, 0.1f);  // looks away
