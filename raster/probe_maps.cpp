@@ -90,6 +90,21 @@ RenderTarget ProbeMaps::target(const ProbeFace& face) {
   return {framebuffer_.id(), mapOf(face.probe).resolution, mapOf(face.probe).resolution};
 }
 
+void ProbeMaps::setFurtherColors(std::span<const gl::Texture* const> colors) {
+  recordingFramebuffer_ = gl::makeLayerFramebuffer(gl_, maps_.front().captured(), depth_);
+  std::vector<GLenum> drawn = {GL_COLOR_ATTACHMENT0};
+  for (const gl::Texture* color : colors) {
+    drawn.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawn.size()));
+    gl_.NamedFramebufferTexture(recordingFramebuffer_.id(), drawn.back(), color->id(), 0);
+  }
+  gl_.NamedFramebufferDrawBuffers(recordingFramebuffer_.id(), static_cast<GLsizei>(drawn.size()), drawn.data());
+}
+
+RenderTarget ProbeMaps::recordingTarget(const ProbeFace& face) {
+  gl::setColorLayer(recordingFramebuffer_, mapOf(face.probe).captured(), face.face);
+  return {recordingFramebuffer_.id(), mapOf(face.probe).resolution, mapOf(face.probe).resolution};
+}
+
 void ProbeMaps::resize(int probe, int resolution) {
   const Map before = std::exchange(mapOf(probe), makeMap(resolution));
   const gl::Framebuffer source = gl::makeLayerFramebuffer(gl_, before.captured(), depth_);

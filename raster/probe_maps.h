@@ -1,9 +1,12 @@
-// The maps of all probes: a texture a probe, with filtered levels where a technique wants them.
+// The maps of all probes: a texture a probe, with filtered levels where a technique wants them. Alpha of
+// level 0 of RGBA16F cubes is 0 where no later bounce iteration of the frame changes what was captured
+// (raster/lookup_records.h).
 #pragma once
 
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "raster/gpu_structs.h"
@@ -39,6 +42,9 @@ class ProbeMaps {
 
   // Attaches the face for capture, with a depth buffer that all faces share unless distances are kept.
   RenderTarget target(const ProbeFace& face);
+  // The same with further colours, textures of the maps' size, which were given before. Not for kept distances.
+  RenderTarget recordingTarget(const ProbeFace& face);
+  void setFurtherColors(std::span<const gl::Texture* const> colors);
   // The layers whose captures publish() makes visible.
   const gl::Texture& captured(int probe) const { return mapOf(probe).captured(); }
 
@@ -100,6 +106,7 @@ class ProbeMaps {
   std::vector<Map> maps_;
   gl::Texture depth_;
   gl::Framebuffer framebuffer_;
+  gl::Framebuffer recordingFramebuffer_;
 };
 
 }  // namespace pb

@@ -9,6 +9,7 @@
 #include "raster/shaders/background.frag.h"
 #include "raster/shaders/background.vert.h"
 #include "raster/shaders/blend_history.frag.h"
+#include "raster/shaders/collect_lookups.comp.h"
 #include "raster/shaders/compose_layers.frag.h"
 #include "raster/shaders/convert_map.comp.h"
 #include "raster/shaders/copy_texels.comp.h"
@@ -16,6 +17,7 @@
 #include "raster/shaders/prefilter_box.comp.h"
 #include "raster/shaders/prefilter_ggx.comp.h"
 #include "raster/shaders/prefilter_source.comp.h"
+#include "raster/shaders/repeat_lookups.comp.h"
 #include "raster/shaders/scene.frag.h"
 #include "raster/shaders/scene.vert.h"
 #include "raster/shaders/shadow.frag.h"
@@ -99,6 +101,19 @@ GLuint Programs::surfaceShowingEnvironment(const SurfaceVariant& variant, Enviro
   return find(shaders::kSceneVert, shaders::kSceneFrag, "scene",
               definesOf(variant) + techniqueDefines + definesOf(source));
 }
+
+GLuint Programs::surfaceRecordingLookup(const SurfaceVariant& variant, const std::string& techniqueDefines) {
+  return surfaceShowingProbe(variant, techniqueDefines + define("RECORDS_LOOKUP"));
+}
+
+GLuint Programs::surfaceHidingLookup(const SurfaceVariant& variant, EnvironmentSource source,
+                                     const std::string& techniqueDefines) {
+  return surfaceShowingEnvironment(variant, source, techniqueDefines + define("HIDES_LOOKUP"));
+}
+
+GLuint Programs::collectLookups() { return findCompute(shaders::kCollectLookupsComp, "collect_lookups", ""); }
+
+GLuint Programs::repeatLookups() { return findCompute(shaders::kRepeatLookupsComp, "repeat_lookups", ""); }
 
 GLuint Programs::background(EnvironmentSource source) {
   return find(shaders::kBackgroundVert, shaders::kBackgroundFrag, "background", definesOf(source));

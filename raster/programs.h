@@ -58,6 +58,13 @@ class Programs {
   GLuint surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines);
   GLuint surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source,
                                    const std::string& techniqueDefines);
+  // As surfaceShowingProbe() and surfaceShowingEnvironment(); write what lookup_records.glsl keeps, too.
+  GLuint surfaceRecordingLookup(const SurfaceVariant& variant, const std::string& techniqueDefines);
+  GLuint surfaceHidingLookup(const SurfaceVariant& variant, EnvironmentSource source,
+                             const std::string& techniqueDefines);
+  // Of lists of lookups (raster/lookup_records.h).
+  GLuint collectLookups();
+  GLuint repeatLookups();
   GLuint background(EnvironmentSource source);
   // Filters of cube maps (raster/prefilter.h).
   GLuint boxLevel(bool weighsSolidAngles, const std::string& formatDefines);

@@ -11,6 +11,7 @@
 #include "raster/device.h"
 #include "raster/final_image.h"
 #include "raster/lookup.h"
+#include "raster/lookup_records.h"
 #include "raster/pass_timer.h"
 #include "raster/planar.h"
 #include "raster/planar_images.h"
@@ -91,6 +92,9 @@ struct RasterSequence::Impl {
   Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_, int samplesPerAxis_);
   ~Impl() { device.context.makeCurrent(); }  // the members free GL objects
 
+  // What later bounce iterations have to do for a face's capture to be that of brute force.
+  enum class Redo { nothing, lookups, everything };
+
   struct Frame {
     FrameStats stats;
     PassTimes times;
@@ -98,7 +102,9 @@ struct RasterSequence::Impl {
   Frame renderFrame(const Snapshot& sceneSnapshot, PassTimer* passTimer);
 
   bool isDynamic() const { return technique.probes == ProbeUse::dynamic && capturesMaps; }
-  ShownProbes shownProbes(int hidden) const { return {probes ? &*probes : nullptr, mapShown, hidden}; }
+  ShownProbes shownProbes(int hidden) const {
+    return {.maps = probes ? &*probes : nullptr, .shown = mapShown, .hidden = hidden, .states = &mapStates};
+  }
   void allocateProbes(const Snapshot& snapshot);
   void resizeProbes(const Snapshot& snapshot);
   gpu::PassConstants finalPass(const Snapshot& snapshot) const;
@@ -108,8 +114,13 @@ struct RasterSequence::Impl {
   void fillMissingFaces(const Snapshot& snapshot, FrameCounters& counters);
   void iterate(const std::vector<ProbeFace>& due, bool isLast, PassTimer* passTimer, Frame& frame);
   void updateLevels(PassTimer* passTimer, Frame& frame);
+  void beginIterations(const std::vector<ProbeFace>& due, std::size_t probeCount);
   void capture(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters);
+  std::vector<ProbeFace> facesTo(Redo what, const std::vector<ProbeFace>& faces) const;
+  void drawProbe(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters);
+  std::vector<CaptureLookups> planProbe(const std::vector<ProbeFace>& faces);
   void publish(const std::vector<ProbeFace>& faces, FrameCounters& counters);
+  Redo& redoOf(const ProbeFace& f) { return redo[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)]; }
   void drawMirroredViews(const Snapshot& snapshot, PassTimer* passTimer, Frame& frame);
   std::size_t passesBeforeMirrors(const Snapshot& snapshot) const;
   std::vector<std::array<std::int64_t, 6>> faceAges() const;
@@ -134,6 +145,9 @@ struct RasterSequence::Impl {
   std::vector<std::size_t> filled;  // by probe: 1 + the environment that faces show which are never captured; 0: none
   std::vector<bool> mapShown;       // by probe: lookups read its cube map, not the environment
   std::vector<bool> levelsShown;    // by probe: lookups read its filtered levels
+  std::optional<LookupRecords> records;   // of techniques that repeat lookups
+  std::vector<std::array<Redo, 6>> redo;  // by probe
+  std::vector<MapState> mapStates;        // by probe
 };
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx_, int heightPx_,
@@ -177,8 +191,10 @@ RasterSequence::Impl::Frame RasterSequence::Impl::renderFrame(const Snapshot& sc
   updateLevels(passTimer, frame);  // of probes that rough lobes look up for the first time
   const std::vector<ProbeFace> captured = viewsOfProbe(technique) == 1 ? oneFaceEach(due) : due;
   if (probes && viewsOfProbe(technique) > 1) fillMissingFaces(snapshot, counters);
+  beginIterations(captured, snapshot.probes.size());
   for (int b = 0; isDynamic() && b < technique.bounces; ++b)
     iterate(captured, b + 1 == technique.bounces, passTimer, frame);
+  if (records) counters.probeBytes += records->bytes();
   updateLevels(passTimer, frame);  // of maps in which nothing but the environment has changed
   drawMirroredViews(snapshot, passTimer, frame);
   ShownProbes shown = shownProbes(kNoProbe);
@@ -211,6 +227,9 @@ void RasterSequence::Impl::allocateProbes(const Snapshot& snapshot) {
                                      .format = technique.format,
                                      .storage = technique.storage,
                                      .seamless = technique.seamless});
+  if (!repeatsLookups(technique) || !lookupRecordsFit(device.limits, technique.resolution)) return;
+  records.emplace(device.context, device.programs, device.limits, technique, technique.resolution, count);
+  probes->setFurtherColors(records->targets());
 }
 
 // Probes whose resolution changes are due with all of their faces, and show until then what they showed before.
@@ -283,10 +302,7 @@ void RasterSequence::Impl::iterate(const std::vector<ProbeFace>& due, bool isLas
   using Groups = std::vector<std::vector<ProbeFace>>;
   double& captureMs = frame.times.captureMs.emplace_back(0.0);
   for (const auto& faces : technique.bounceOrder == BounceOrder::simultaneous ? Groups{due} : byProbe(due)) {
-    captureMs += timed(passTimer, [&] {
-      capture(faces, isLast, frame.stats.counters);
-      publish(faces, frame.stats.counters);
-    });
+    captureMs += timed(passTimer, [&] { capture(faces, isLast, frame.stats.counters); });
     updateLevels(passTimer, frame);
   }
 }
@@ -297,19 +313,85 @@ void RasterSequence::Impl::updateLevels(PassTimer* passTimer, Frame& frame) {
       timed(passTimer, [&] { frame.stats.counters.texelsFiltered += probes->filter(levelsShown); });
 }
 
-void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters) {
-  for (const ProbeFace& f : faces) {
-    const RenderTarget target = probes->target(f);
-    scenePass->draw(capturePass(f), target, shownProbes(f.probe), counters, capturedPart(technique, f.face));
-    if (captureHistory) captureHistory->blend(f, target, probes->captured(f.probe), isLast);
-    ++counters.facesCaptured;
+void RasterSequence::Impl::beginIterations(const std::vector<ProbeFace>& due, std::size_t probeCount) {
+  redo.assign(probeCount, {});
+  mapStates.assign(probeCount, MapState::settled);
+  for (const ProbeFace& f : due) {
+    redoOf(f) = Redo::everything;
+    mapStates[static_cast<std::size_t>(f.probe)] = MapState::unsettled;
   }
+  if (records) records->beginFrame();
+}
+
+// Brings the faces' captures up to date and publishes what changed.
+void RasterSequence::Impl::capture(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters) {
+  const std::vector<ProbeFace> repeated = facesTo(Redo::lookups, faces);
+  std::vector<ProbeFace> changed = facesTo(Redo::everything, faces);
+  for (const auto& ofProbe : byProbe(repeated))
+    records->repeat(ofProbe.front().probe, *probes, mapStates, kLargestHalf, isLast);
+  for (const auto& ofProbe : byProbe(changed)) drawProbe(ofProbe, isLast, counters);
+  changed.insert(changed.end(), repeated.begin(), repeated.end());
+  publish(changed, counters);
+}
+
+std::vector<ProbeFace> RasterSequence::Impl::facesTo(Redo what, const std::vector<ProbeFace>& faces) const {
+  std::vector<ProbeFace> result;
+  for (const ProbeFace& f : faces)
+    if (redo[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)] == what) result.push_back(f);
+  return result;
+}
+
+// Faces of one probe.
+void RasterSequence::Impl::drawProbe(const std::vector<ProbeFace>& faces, bool isLast, FrameCounters& counters) {
+  const std::vector<CaptureLookups> lookups =
+      records && !isLast ? planProbe(faces) : std::vector<CaptureLookups>(faces.size());
+  counters.facesCaptured += static_cast<std::int64_t>(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const ProbeFace& f = faces[i];
+    const bool isRecorded = redoOf(f) == Redo::lookups;
+    if (isRecorded) records->beginCapture();
+    const RenderTarget target = isRecorded ? probes->recordingTarget(f) : probes->target(f);
+    scenePass->draw(capturePass(f), target, shownProbes(f.probe), counters, capturedPart(technique, f.face),
+                    isRecorded ? &*records : nullptr);
+    if (isRecorded) records->endCapture(f, lookups[i]);
+    if (captureHistory) captureHistory->blend(f, target, probes->captured(f.probe), isLast);
+  }
+}
+
+// Decides what later iterations redo of the faces of one probe, which are about to be drawn. Their lookups are recorded
+// once a frame: when all maps that they look up are shown.
+std::vector<CaptureLookups> RasterSequence::Impl::planProbe(const std::vector<ProbeFace>& faces) {
+  const int probe = faces.front().probe;
+  std::vector<CaptureLookups> lookups;
+  std::vector<std::int64_t> texels(mapShown.size(), 0);
+  bool areShown = true;
+  for (const ProbeFace& f : faces) {
+    const CaptureLookups& ofFace =
+        lookups.emplace_back(scenePass->lookupsOf(capturePass(f), shownProbes(probe), capturedPart(technique, f.face)));
+    areShown = areShown && ofFace.areShown;
+    for (std::size_t p = 0; ofFace.isRecordable && p < texels.size(); ++p) texels[p] += ofFace.areas[p].texels();
+  }
+  const bool areRecorded = std::ranges::count(redo[static_cast<std::size_t>(probe)], Redo::lookups) == 0 && areShown &&
+                           records->reserve(probe, texels);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    Redo& what = redoOf(faces[i]);
+    if (!lookups[i].any)
+      what = Redo::nothing;
+    else if (areRecorded && lookups[i].isRecordable)
+      what = Redo::lookups;
+  }
+  return lookups;
 }
 
 void RasterSequence::Impl::publish(const std::vector<ProbeFace>& faces, FrameCounters& counters) {
   if (faces.empty()) return;
   counters.texelsFiltered += probes->publish(faces);
-  for (const ProbeFace& f : faces) mapShown[static_cast<std::size_t>(f.probe)] = true;
+  for (const ProbeFace& f : faces) {
+    const auto probe = static_cast<std::size_t>(f.probe);
+    mapShown[probe] = true;
+    const bool isDrawnAgain = std::ranges::count(redo[probe], Redo::everything) > 0;
+    mapStates[probe] = isDrawnAgain ? MapState::unsettled : MapState::changes;
+  }
 }
 
 // The views of planar reflectors, which see the newest maps.

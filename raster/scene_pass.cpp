@@ -87,6 +87,17 @@ std::string conductorDefines(const Material& material) {
   return material.constants.conductorEta.w > 0.5f ? "#define CONDUCTOR\n" : "";
 }
 
+// What is drawn as rest + weight * radiance of one direction.
+bool hasOneLookup(const SurfaceVariant& variant) {
+  return (variant.kind == shading::kSurfaceMirror || variant.kind == shading::kSurfaceGlossy) &&
+         variant.coverage != shading::kAlphaBlend;
+}
+
+// By the order of draws, diffuse surfaces come before all that look something up.
+bool mayCoverLookups(const SurfaceVariant& variant) {
+  return variant.kind != shading::kSurfaceDiffuse && variant.coverage != shading::kAlphaBlend;
+}
+
 std::string shadowDefines(const Snapshot& snapshot) { return castsShadows(snapshot) ? "#define SHADOWS\n" : ""; }
 
 std::string lightDefines(const Snapshot& snapshot, bool showsLights) {
@@ -239,7 +250,7 @@ std::vector<const ScenePass::Draw*> ScenePass::shadowCasters(const gpu::ShadowFa
 }
 
 void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters,
-                     FacePart shownPart) {
+                     FacePart shownPart, LookupRecords* records) {
   beginPass(pass, target);
   const bool isCapture = probes.hidden != kNoProbe;
   const std::vector<const Draw*> visible = visibleDraws(pass, probes.hidden, shownPart);
@@ -249,8 +260,9 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownPr
     gl_.Enable(GL_SCISSOR_TEST);
     gl_.Scissor(0, 0, target.widthPx, rows);
   }
-  drawSurfaces({visible.begin(), firstBlended}, pass, probes);
+  drawSurfaces({visible.begin(), firstBlended}, pass, probes, records);
   gl_.Disable(GL_SCISSOR_TEST);
+  if (records != nullptr) records->keepMarks();
   drawBackground();
   counters.draws += static_cast<std::int64_t>(visible.size()) + 1;
   counters.triangles += 1;
@@ -268,6 +280,29 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownPr
   ++counters.triangles;
 }
 
+CaptureLookups ScenePass::lookupsOf(std::size_t pass, const ShownProbes& probes, FacePart shownPart) const {
+  const gpu::PassConstants& constants = passes_[pass];
+  CaptureLookups lookups;
+  lookups.areas.assign(snapshot_->probes.size(), {});
+  bool isBlended = false;
+  for (const Draw* draw : visibleDraws(pass, probes.hidden, shownPart)) {
+    isBlended = isBlended || draw->isBlended();
+    const int probe = reflections_[draw->instance].probe;
+    const bool showsTwo = draw->showingBlend != 0;
+    if (draw->showingProbe == 0 || (probe == probes.hidden && !showsTwo)) continue;
+    const TexelRect area = texelsShowing(snapshot_->instances[draw->instance].worldBounds, constants.view,
+                                         static_cast<int>(constants.image.x));
+    const auto lookedUp = static_cast<std::size_t>(probe);
+    lookups.any = true;
+    lookups.areShown = lookups.areShown && probes.shown[lookedUp];
+    lookups.isRecordable = lookups.isRecordable && draw->captured.recordingProbe != 0 && !showsTwo;
+    lookups.areas[lookedUp] = joined(lookups.areas[lookedUp], area);
+  }
+  // What shines through layers is not what the list of texels says.
+  lookups.isRecordable = lookups.isRecordable && lookups.any && !isBlended;
+  return lookups;
+}
+
 // The surfaces that a pass draws, in order.
 std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const {
   std::vector<const Draw*> visible;
@@ -281,7 +316,8 @@ std::vector<const ScenePass::Draw*> ScenePass::visibleDraws(std::size_t pass, in
   return visible;
 }
 
-void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes) {
+void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes,
+                             const LookupRecords* records) {
   const bool clips = isClipped(passes_[pass]);
   gl_.Disable(GL_CULL_FACE);
   if (clips) gl_.Enable(GL_CLIP_DISTANCE0);
@@ -289,13 +325,30 @@ void ScenePass::drawSurfaces(const std::vector<const Draw*>& draws, std::size_t 
   Binder binder(*this, passes_[pass].view, isCapture);
   for (const Draw* draw : draws) {
     const bool isCaptured = isCapture && snapshot_->instances[draw->instance].probe == probes.hidden;
-    const GLuint program = bindReflection(*draw, probes);
+    GLuint program = bindReflection(*draw, probes);
     if (draw->backFaces != 0) drawBackFaces(*draw, pass, binder);
+    if (records != nullptr) program = markDraw(*draw, program, probes, *records);
     binder.bind(*draw, program, isCaptured ? Faces::back : facesOf(*draw, passes_[pass].view));
     drawTriangles(*draw, isCapture);
   }
   if (clips) gl_.Disable(GL_CLIP_DISTANCE0);  // other programs have no such distance
   if (!technique_.seamless) gl_.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+}
+
+// Returns the program that writes what `program` does and tells the records of it.
+GLuint ScenePass::markDraw(const Draw& draw, GLuint program, const ShownProbes& probes,
+                           const LookupRecords& records) const {
+  if (draw.captured.recordingProbe != 0 && program == draw.captured.showingProbe) {
+    const int lookedUp = reflections_[draw.instance].probe;
+    records.markDraw(draw.captured.recordingProbe, lookedUp, (*probes.states)[static_cast<std::size_t>(lookedUp)]);
+    return draw.captured.recordingProbe;
+  }
+  if (draw.captured.hidingLookups != 0) {
+    records.hideMarks();
+    return draw.captured.hidingLookups;
+  }
+  records.keepMarks();
+  return program;
 }
 
 // Binds what the draw's specular lobe looks up, and returns the program that does. A map may not be read while it is
@@ -468,6 +521,11 @@ void ScenePass::buildDraws(const Snapshot& snapshot, const std::vector<int>& pro
     if (draw.showingBlend != 0)
       draw.captured.showingBlend =
           device_.programs.surfaceShowingProbe(captured, capturedDefines + lookupDefines + kBlendDefines);
+    if (hasProbe && repeatsLookups(technique_) && hasOneLookup(variant))
+      draw.captured.recordingProbe = device_.programs.surfaceRecordingLookup(captured, capturedDefines + lookupDefines);
+    if (repeatsLookups(technique_) && mayCoverLookups(variant))
+      draw.captured.hidingLookups =
+          device_.programs.surfaceHidingLookup(captured, source, capturedDefines + environmentLevels);
     if (hasBackFaces) draw.captured.backFaces = device_.programs.backFaces(captured);
     if (hasBackFaces && !backFaces_) backFaces_.emplace(device_.context, device_.limits);
   }

@@ -8,6 +8,7 @@
 #include "raster/back_faces.h"
 #include "raster/captured_faces.h"
 #include "raster/device.h"
+#include "raster/lookup_records.h"
 #include "raster/reflection.h"
 #include "raster/render_target.h"
 #include "raster/shadow_maps.h"
@@ -27,6 +28,7 @@ struct ShownProbes {
   int hidden = kNoProbe;                               // the probe that is captured: its owners are left out
   const std::vector<GLuint>* mirroredViews = nullptr;  // by instance: the texture of the mirrored view that a flat
                                                        // reflector shows, 0 for none; null if nothing shows one
+  const std::vector<MapState>* states = nullptr;       // by probe; for records only
 };
 
 class ScenePass {
@@ -41,9 +43,13 @@ class ScenePass {
   void drawShadows(FrameCounters& counters);
 
   // The frame's pass number `pass`, surfaces in a part of it only. Probes that are not shown, and the hidden one, show
-  // the environment.
+  // the environment. `records`, if given, hears of every surface that looks up a probe's map: all of them have to be
+  // recordable.
   void draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters,
-            FacePart shownPart = FacePart::whole);
+            FacePart shownPart = FacePart::whole, LookupRecords* records = nullptr);
+
+  // What later bounce iterations change of the capture that draw() makes.
+  CaptureLookups lookupsOf(std::size_t pass, const ShownProbes& probes, FacePart shownPart) const;
 
   // The same objects into an RGBA32UI target: SampleId, 0.
   void drawIds(std::size_t pass, const RenderTarget& target);
@@ -68,6 +74,8 @@ class ScenePass {
     // In captures, which the technique may reduce.
     struct Captured {
       GLuint showingEnvironment = 0, showingProbe = 0, showingBlend = 0, backFaces = 0;
+      GLuint recordingProbe = 0;  // none if bounce iterations can't do without drawing it again
+      GLuint hidingLookups = 0;   // instead of showingEnvironment before surfaces that may have been recorded
     } captured;
 
     bool isBlended() const { return variant.coverage == shading::kAlphaBlend; }
@@ -87,13 +95,15 @@ class ScenePass {
   void uploadProbes();
   GLuint bindReflection(const Draw& draw, const ShownProbes& probes) const;
   void bindProbe(const ProbeMaps& maps, int probe) const;
+  GLuint markDraw(const Draw& draw, GLuint program, const ShownProbes& probes, const LookupRecords& records) const;
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const Draw& draw, std::size_t pass) const;
   MeshNeeds meshNeeds(const SnapshotInstance& instance, bool hasBackFaces) const;
   GLsizei indexCount(const Draw& draw, bool isCapture) const;
   void drawTriangles(const Draw& draw, bool isCapture) const;
   std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const;
-  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes);
+  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes,
+                    const LookupRecords* records = nullptr);
   std::vector<const Draw*> readBehind(const Draw& draw, std::size_t pass) const;
   void drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder);
   Faces facesOf(const Draw& draw, const shading::View& view) const;

@@ -10,5 +10,5 @@ void main() {
   vec2 size = vec2(pass.image.x, pass.image.y);
   vec2 st = 2.0f * vec2(gl_FragCoord.x, gl_FragCoord.y) / size - vec2(1.0f);
   vec3 d = safeNormalize(viewDirection(pass.view, st));
-  radiance = vec4(min(environmentAlong(d), vec3(pass.image.z)), 1.0f);
+  radiance = vec4(min(environmentAlong(d), vec3(pass.image.z)), 0.0f);
 }

@@ -39,7 +39,26 @@ vec3 texelAlong(sampler2DArray map, vec3 d, float lod) {
   return vec3(textureLod(map, vec3(at, d.y < 0.0f ? 1.0f : 0.0f), lod));
 }
 #else
-vec3 texelAlong(samplerCube map, vec3 d, float lod) { return vec3(textureLod(map, d, lod)); }
+#ifdef RECORDS_LOOKUP
+// The fragment's only lookup.
+struct LookedUp {
+  vec3 weight;
+  float lod;
+  vec3 direction;
+  float alpha;
+};
+LookedUp lookedUp = LookedUp(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+#endif
+
+vec3 texelAlong(samplerCube map, vec3 d, float lod) {
+  vec4 texel = textureLod(map, d, lod);
+#ifdef RECORDS_LOOKUP
+  lookedUp.direction = d;
+  lookedUp.lod = lod;
+  lookedUp.alpha = texel.w;
+#endif
+  return vec3(texel);
+}
 #endif
 
 vec3 radianceOfLevel(vec3 from, vec3 d, float lod) {

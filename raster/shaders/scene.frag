@@ -4,7 +4,11 @@
 // Variants by defines, besides those of the included files: SURFACE_KIND (kSurface*), PROBE_LOOKUP for specular
 // surfaces that show their probe's cube map instead of the environment, ALPHA_MASK for surfaces with holes, ALPHA_BLEND for
 // those that cover partly and are composed later (layers.glsl), NO_LIGHTS if lights are left out, SHADOWS if they have
-// shadow maps, CONDUCTOR if the metal's index of refraction is known, and AREA_LIGHTS if surfaces emit.
+// shadow maps, CONDUCTOR if the metal's index of refraction is known, and AREA_LIGHTS if surfaces emit. RECORDS_LOOKUP, of
+// opaque surfaces that look up one texel of one probe's map, writes what they show as rest + weight * radiance, for later
+// bounce iterations (lookup_records.glsl); HIDES_LOOKUP, of other opaque surfaces, that they show none.
+//
+// The colour's alpha says whether a later bounce iteration of the frame may change it: 1 if it may.
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
 #include "raster/shaders/surface_fetch.glsl"
@@ -29,6 +33,16 @@ const float kGeometry = GEOMETRY_TERM;
 layout(early_fragment_tests) in;  // hidden layers must not be stored
 #else
 layout(location = 0) out vec4 radiance;
+#endif
+#ifdef HIDES_LOOKUP
+layout(location = 1) out vec4 restAndMarker;
+#endif
+#ifdef RECORDS_LOOKUP
+#include "raster/shaders/settled.glsl"
+layout(location = 0) uniform vec2 lookupMarker;  // y: how much of the map is settled
+layout(location = 1) out vec4 restAndMarker;
+layout(location = 2) out vec4 weightAndLod;
+layout(location = 3) out vec4 directionAndUnsettled;
 #endif
 
 #include "raster/shaders/radiance_lookup.glsl"
@@ -86,13 +100,26 @@ void main() {
   if (s.kind == kSurfaceGlass || s.kind == kSurfaceGlossy)
     dfg = surfaceDfg(s, dfgTable, max(dot(s.normal, fragment.toViewer), 0.0f));
   vec3 sum = localRadianceOf(s, fragment.toViewer, dfg);
+#ifdef HIDES_LOOKUP
+  restAndMarker = vec4(0.0f);
+#endif
+#ifdef RECORDS_LOOKUP
+  restAndMarker = vec4(sum, lookupMarker.x);
+#endif
 #ifndef NO_REFLECTION
   if (isSpecular(s)) sum += specularRadiance(s, fragment.toViewer, dfg);
 #endif
   sum = min(sum, vec3(pass.image.z));
 #ifdef ALPHA_BLEND
   addLayer(sum, s.opacity);
-#else
+#elif defined(RECORDS_LOOKUP)
+  float unsettled = unsettledLookup(lookedUp.alpha, lookupMarker.y);
+  radiance = vec4(sum, unsettled);
+  weightAndLod = vec4(lookedUp.weight, lookedUp.lod);
+  directionAndUnsettled = vec4(lookedUp.direction, unsettled);
+#elif defined(PROBE_LOOKUP)
   radiance = vec4(sum, 1.0f);
+#else
+  radiance = vec4(sum, 0.0f);
 #endif
 }

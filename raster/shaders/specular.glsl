@@ -35,6 +35,9 @@ vec3 specularRadiance(Surface s, vec3 toViewer, vec2 dfg) {
   if (hasSplitSum(s)) weights.reflection = splitSum(s, dfg);
 #endif
   vec3 sum = weights.reflection * reflectedRadiance(s, toViewer);
+#ifdef RECORDS_LOOKUP
+  lookedUp.weight = weights.reflection;
+#endif
   if (s.kind == kSurfaceGlass) sum += refractedRadiance(s, toViewer, weights.refraction);
   return sum;
 }
