@@ -94,7 +94,6 @@ class Runner {
   }
 
   RunOutcome run() {
-    checkSequences();
     measureErrors();
     RunOutcome outcome;
     outcome.skipped = skipped_;
@@ -124,16 +123,6 @@ class Runner {
     std::ranges::copy_if(sequence.frames, std::back_inserter(open),
                          [&](int frame) { return !isFinished(sequence, frame); });
     return open;
-  }
-
-  // Before anything is rendered.
-  void checkSequences() {
-    const ImageSettings& image = c_.suite.image;
-    for (const PlannedSequence& sequence : c_.plan.sequences)
-      if (!sequence.external && !openFrames(sequence).empty())
-        RasterSequence::check(c_.device, sequence.technique,
-                              *snapshot(sequence.scene, suiteScene(sequence.scene).startFrame()), image.widthPx,
-                              image.heightPx, image.samplesPerAxis);
   }
 
   void measureErrors() {
@@ -359,6 +348,20 @@ void requireExternals(const Suite& suite, const Scenes& scenes, const Plan& plan
     if (sequence.external)
       requireAvailable(suite.externals[*sequence.external], pictureName(suite, scenes, sequence.scene),
                        sequence.frames);
+}
+
+void checkPlan(const Suite& suite, const Scenes& scenes, const Plan& plan, RasterDevice& device) {
+  std::map<std::size_t, std::shared_ptr<const Snapshot>> snapshots;  // by scene
+  for (const PlannedSequence& sequence : plan.sequences) {
+    if (sequence.external) continue;
+    const SuiteScene& scene = suite.scenes[sequence.scene];
+    std::shared_ptr<const Snapshot>& snapshot = snapshots[sequence.scene];
+    if (!snapshot)
+      snapshot =
+          makeSnapshot(scenes[sequence.scene], std::max(scene.startFrame(), 0), scene.camera, suite.image.aspect());
+    RasterSequence::check(device, sequence.technique, *snapshot, suite.image.widthPx, suite.image.heightPx,
+                          suite.image.samplesPerAxis);
+  }
 }
 
 RunOutcome runPlan(const RunContext& context) { return Runner(context).run(); }

@@ -46,4 +46,7 @@ struct RunOutcome {
 // Throws Error(Failure::interrupted) at a cell boundary after an interrupt; what is done stands in the journal.
 RunOutcome runPlan(const RunContext& context);
 
+// Throws the input Errors with which a technique would refuse its scene, before anything is rendered.
+void checkPlan(const Suite& suite, const Scenes& scenes, const Plan& plan, RasterDevice& device);
+
 }  // namespace pb

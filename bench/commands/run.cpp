@@ -81,6 +81,7 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   requireExternals(suite, scenes, plan);
 
   RasterDevice device(globals.backend());
+  checkPlan(suite, scenes, plan, device);
   Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
   const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
   Progress progress;

@@ -238,6 +238,19 @@ TEST(Run, ThatCantStart_KeepsTheEarlierRun) {
   EXPECT_EQ(workplace.cells("run").size(), 8u);
 }
 
+TEST(Run, OfTechniquesThatASceneRefuses_EndsBeforeTheControl) {
+  const Workplace workplace;
+  // 64 cubes of 6 * 4096^2 texels of 8 bytes: 48 GiB. `metals` has rough spheres.
+  for (const auto& [scene, setting, message] :
+       {std::array{"builtin:mirrors?count=64", "resolution=4096", "the device allows"},
+        std::array{"builtin:metals", "storage=octahedral", "filter must be none"}}) {
+    const ProgramResult result = workplace.run("run", {"--scene", scene, "--set", setting});
+    EXPECT_EQ(result.exitCode, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_THAT(result.err, testing::Not(HasSubstr("control")));
+  }
+}
+
 TEST(Run, ResumedWithOtherSettings_IsRefused) {
   const Workplace workplace;
   ASSERT_EQ(workplace.run("run").exitCode, 0);

@@ -94,5 +94,24 @@ TEST(ProbeBytes, CountBothBuffersOfSimultaneousBounces) {
   EXPECT_EQ(probeBytes(technique, 3, ProbeFilter::none), 0);
 }
 
+TEST(ProbeBytes, FollowFormatAndStorage) {
+  Technique technique = withResolution(16);
+  const auto bytes = [&] { return probeBytes(technique, 3, ProbeFilter::none); };
+  technique.format = ProbeFormat::r11fG11fB10f;
+  EXPECT_EQ(bytes(), 3 * 6 * 16 * 16 * 4);
+  technique.format = ProbeFormat::rgb9e5;  // captured in halves
+  EXPECT_EQ(bytes(), 3 * 6 * 16 * 16 * (4 + 8));
+  technique.format = ProbeFormat::rgba8Srgb;
+  EXPECT_EQ(bytes(), 3 * 6 * 16 * 16 * 4);
+  EXPECT_EQ(probeBytes(technique, 3, ProbeFilter::boxMips), 3 * 6 * (16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * 4);
+  technique.bounceOrder = BounceOrder::simultaneous;
+  EXPECT_EQ(bytes(), 2 * 3 * 6 * 16 * 16 * 4);
+  technique = withResolution(16);
+  technique.storage = Storage::octahedral;  // sqrt(6) * 16 = 39.2, even and with a border
+  EXPECT_EQ(bytes(), 3 * (42 * 42 + 6 * 16 * 16) * 8);
+  technique.storage = Storage::dualParaboloid;  // sqrt(3) * 16 = 27.7
+  EXPECT_EQ(bytes(), 3 * (2 * 30 * 30 + 6 * 16 * 16) * 8);
+}
+
 }  // namespace
 }  // namespace pb

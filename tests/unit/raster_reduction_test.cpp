@@ -137,6 +137,8 @@ TEST(Simplify, KeepsWhatCannotBeSimpler) {
   const auto box = finishMesh(makeBoxMesh(vec3(1.0f)));
   EXPECT_EQ(simplifiedTriangles(*box, 1.0f), box->indices);
   EXPECT_EQ(simplifiedTriangles(*box, 0.01f).size(), box->indices.size());  // edges are hard
+  const auto quad = finishMesh(makeQuadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+  EXPECT_EQ(simplifiedTriangles(*quad, 0.01f).size(), quad->indices.size());
 }
 
 // The smooth ball behind the mirror is seen by one face, and by the camera as a ring around the mirror.
