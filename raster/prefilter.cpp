@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "raster/gpu_structs.h"
 
@@ -108,10 +107,6 @@ gl::Texture makeLayers(const gl::Functions& gl, GLenum format, int resolution, i
 }
 
 constexpr GLbitfield kLevelsAreRead = GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
-
-// Environments: the sun of a photographed sky exceeds halves.
-constexpr TexelFormat kFloats = {GL_RGBA32F, GL_RGBA32F, 16, 16, std::numeric_limits<float>::infinity(),
-                                 GL_RGBA32F, ""};
 
 const gl::Texture& imageOf(const gl::Texture& layers, const gl::Texture& view) {
   return view.id() != 0 ? view : layers;
@@ -286,9 +281,9 @@ FilteredEnvironment filterEnvironment(gl::Context& context, Programs& programs, 
   const int subtexels =
       isGradient ? kGradientSubtexels : (environment.faces.front().width() + result.resolution - 1) / result.resolution;
   const GLuint program = programs.environmentFaces(environmentSource(environment, TextureFilter::exact), subtexels);
-  dispatchFaces(gl, program, result.layers, kFloats.image, 0, result.resolution, kAllFaces);
+  dispatchFaces(gl, program, result.layers, floatTexels().image, 0, result.resolution, kAllFaces);
   gl.MemoryBarrier(kLevelsAreRead);
-  CubeFilter(context, programs, filter, kFloats, result.resolution).run(result.layers, {}, kAllFaces);
+  CubeFilter(context, programs, filter, floatTexels(), result.resolution).run(result.layers, {}, kAllFaces);
   context.check("filtering the environment");
   return result;
 }

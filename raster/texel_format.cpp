@@ -1,6 +1,7 @@
 #include "raster/texel_format.h"
 
 #include <array>
+#include <limits>
 
 namespace pb {
 
@@ -13,6 +14,12 @@ const TexelFormat& texelFormat(ProbeFormat format) {
        {GL_RGB9_E5, GL_RGBA16F, 4, 8, 65408.0f, GL_R32UI, "#define STORE_RGB9_E5\n"},
        {GL_SRGB8_ALPHA8, GL_SRGB8_ALPHA8, 4, 4, 1.0f, GL_R32UI, "#define STORE_SRGB8\n"}}};
   return kFormats[static_cast<std::size_t>(format)];
+}
+
+const TexelFormat& floatTexels() {
+  static constexpr TexelFormat kFloats = {GL_RGBA32F, GL_RGBA32F, 16, 16, std::numeric_limits<float>::infinity(),
+                                          GL_RGBA32F, ""};
+  return kFloats;
 }
 
 }  // namespace pb

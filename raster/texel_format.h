@@ -23,4 +23,7 @@ struct TexelFormat {
 
 const TexelFormat& texelFormat(ProbeFormat format);
 
+// RGBA32F, of filtered environments: the sun of a photographed sky exceeds halves.
+const TexelFormat& floatTexels();
+
 }  // namespace pb

@@ -25,19 +25,20 @@ class RasterGloss : public RasterTest {
   using Levels = std::vector<std::vector<Grid<vec4>>>;
 
   template <class Radiance>
-  Levels filtered(ProbeFilter filter, int size, const Radiance& radiance, GLenum format = GL_RGBA32F) {
+  Levels filtered(ProbeFilter filter, int size, const Radiance& radiance,
+                  const TexelFormat& format = floatTexels()) {
     gl::Context& context = device().impl().context;
     context.makeCurrent();
     const gl::Functions& gl = context.functions();
     const int levels = filteredLevels(filter, size) + 1;
     const gl::Texture layers = gl::makeTexture(gl, {.target = GL_TEXTURE_2D_ARRAY,
-                                                    .format = format,
+                                                    .format = format.shown,
                                                     .width = size,
                                                     .height = size,
                                                     .layers = 6,
                                                     .levels = levels});
     upload(layers, size, radiance, kAllFaces);
-    CubeFilter(context, device().impl().programs, filter, format, size).run(layers, 0, kAllFaces);
+    CubeFilter(context, device().impl().programs, filter, format, size).run(layers, {}, kAllFaces);
     Levels result = read(layers, size, levels);
     context.check("filtering a test's cube map");
     return result;
@@ -118,12 +119,12 @@ TEST(Gloss, LobeSamplesFollowTheKernel) {
 // Halves have 11 bits. The mean of equal values in floats is that value up to a few of 24 bits.
 TEST_P(RasterGloss, ConstantMapsStayConstantInEveryLevel) {
   for (const ProbeFilter filter : {ProbeFilter::boxMips, ProbeFilter::ggxPrefiltered})
-    for (const GLenum format : {GL_RGBA16F, GL_RGBA32F})
+    for (const TexelFormat& format : {texelFormat(ProbeFormat::rgba16f), floatTexels()})
       for (const auto& faces : filtered(
                filter, 64, [](const vec3&) { return vec3(1.0f, 0.25f, 4.0f); }, format))
         for (const Grid<vec4>& face : faces)
           for (const vec4& texel : face) {
-            const float tolerance = format == GL_RGBA16F ? std::exp2(-10.0f) : 1e-5f;
+            const float tolerance = format.shown == GL_RGBA16F ? std::exp2(-10.0f) : 1e-5f;
             EXPECT_NEAR(texel.x, 1.0f, tolerance);
             EXPECT_NEAR(texel.y, 0.25f, 0.25f * tolerance);
             EXPECT_NEAR(texel.z, 4.0f, 4.0f * tolerance);
@@ -238,7 +239,7 @@ TEST_P(RasterGloss, FilteringWhatChangedEqualsFilteringAll) {
   context.makeCurrent();
   const auto changedRadiance = [](const vec3& d) { return 2.0f * testRadiance(-d); };
   for (const ProbeFilter filter : {ProbeFilter::boxMips, ProbeFilter::ggxPrefiltered}) {
-    CubeFilter cubeFilter(context, device().impl().programs, filter, GL_RGBA32F, kSize);
+    CubeFilter cubeFilter(context, device().impl().programs, filter, floatTexels(), kSize);
     const int levels = filteredLevels(filter, kSize) + 1;
     const auto run = [&](FaceSet changed, bool inSteps) {
       const gl::Texture layers = gl::makeTexture(context.functions(), {.target = GL_TEXTURE_2D_ARRAY,
@@ -248,9 +249,9 @@ TEST_P(RasterGloss, FilteringWhatChangedEqualsFilteringAll) {
                                                                        .layers = 6,
                                                                        .levels = levels});
       upload(layers, kSize, testRadiance, kAllFaces);
-      const std::int64_t all = cubeFilter.run(layers, 0, inSteps ? kAllFaces : 0u);
+      const std::int64_t all = cubeFilter.run(layers, {}, inSteps ? kAllFaces : 0u);
       upload(layers, kSize, changedRadiance, changed);
-      const std::int64_t texels = cubeFilter.run(layers, 0, inSteps ? changed : kAllFaces);
+      const std::int64_t texels = cubeFilter.run(layers, {}, inSteps ? changed : kAllFaces);
       if (inSteps) {
         EXPECT_LE(texels, all);
       }
