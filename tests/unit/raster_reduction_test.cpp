@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "raster/plain_material.h"
 #include "raster/simplify.h"
 #include "tests/unit/raster_fixture.h"
 
@@ -119,6 +120,33 @@ TEST_P(RasterReduction, BeyondTheFarPlaneCapturesShowTheEnvironment) {
   EXPECT_EQ(near.image(2, 60), whole.image(2, 60));
   EXPECT_LT(near.counters.draws, whole.counters.draws);  // the box is culled
   EXPECT_EQ(renderAll(*snapshot, reduced([](Technique& t) { t.captureFar = 1000.0f; })).faces, whole.faces);
+}
+
+TEST(PlainMaterial, HasTheMeansOfItsTexturesInItsConstants) {
+  const auto textureOf = [](glm::vec4 a, glm::vec4 b) {
+    ImageRgba texels(2, 1, a);
+    texels(1, 0) = b;
+    return makeTexture("two texels", texels);
+  };
+  Scene scene;
+  Material material = makeDiffuseMaterial("material", vec3(0.5f));
+  material.constants.factors = {1.0f, 0.5f, 1.0f, 0.0f};
+  material.constants.emission = {2, 2, 2, 0.75f};
+  material.baseColorTexture = addTexture(scene, textureOf({1, 1, 0, 1}, {0, 1, 0, 1}));
+  material.metallicRoughnessTexture = addTexture(scene, textureOf({0, 1, 0.5f, 1}, {0, 0.5f, 0, 1}));
+  material.emissionTexture = addTexture(scene, textureOf({1, 0, 0, 1}, {0, 0.5f, 0, 1}));
+  shading::MaterialConstants plain = plainConstants(scene, {}, material);
+  EXPECT_EQ(vec3(plain.baseColor), vec3(0.25f, 0.5f, 0.0f));
+  EXPECT_EQ(plain.factors.x, 0.25f);   // metallic
+  EXPECT_EQ(plain.factors.y, 0.375f);  // roughness
+  EXPECT_EQ(plain.emission, glm::vec4(1, 0.5f, 0, 0.75f));
+
+  // Screens replace the emission texture; textures that make holes stay.
+  material.screen = 0;
+  material.constants.alpha.x = shading::kAlphaBlend;
+  plain = plainConstants(scene, {textureOf({0, 0, 1, 1}, {0, 0, 0, 1})}, material);
+  EXPECT_EQ(vec3(plain.emission), vec3(0, 0, 1));
+  EXPECT_EQ(vec3(plain.baseColor), vec3(0.5f));
 }
 
 TEST(Simplify, LeavesTheWantedShareOfASmoothMesh) {
