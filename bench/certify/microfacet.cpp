@@ -29,7 +29,8 @@ double normalisationError() {
     const float alpha = roughness * roughness;
     double sum = 0.0;
     oracle::forEachMicrofacet(static_cast<double>(alpha), 256, [&](double NoH, double, double weight) {
-      sum += weight * static_cast<double>(shading::D_GGX(static_cast<float>(NoH), static_cast<float>(1.0 - NoH * NoH), alpha)) /
+      sum += weight *
+             static_cast<double>(shading::D_GGX(static_cast<float>(NoH), static_cast<float>(1.0 - NoH * NoH), alpha)) /
              oracle::ggxDensity(NoH, static_cast<double>(alpha));
     });
     largest = std::max(largest, std::abs(sum - 1.0));
@@ -156,7 +157,8 @@ class NormalHistogram {
         const double phi = 2.0 * oracle::kPi * ((column + (j + 0.5) / kSubsteps) / kColumns - 0.5);
         const double s = std::sqrt(1.0 - z * z);
         const glm::vec3 h(s * std::cos(phi), s * std::sin(phi), z);
-        sum += static_cast<double>(shading::pdfVisibleNormal(toViewer.z, h.z, static_cast<float>(s * s), glm::dot(toViewer, h), alpha));
+        sum += static_cast<double>(
+            shading::pdfVisibleNormal(toViewer.z, h.z, static_cast<float>(s * s), glm::dot(toViewer, h), alpha));
       }
     return sum / (kSubsteps * kSubsteps) * 2.0 * oracle::kPi / (kRows * kColumns);
   }

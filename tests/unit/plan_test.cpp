@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "bench/axes.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -34,6 +37,46 @@ TEST(Plan, IsTheProductOfScenesAndAxes) {
   EXPECT_EQ(plan.sequences[1].technique.bounces, 2);
   EXPECT_EQ(plan.sequences[3].technique.resolution, 128);
   EXPECT_EQ(plan.sequences[6].scene, 1u);
+}
+
+TEST(Plan, Varied_TriesEachValueAloneOnEachOfTheGridsTechniques) {
+  Suite suite = suiteOfTwo();
+  suite.grid = {{"bounces", {"1", "2"}}};
+  suite.scenes[1].vary = {{"resolution", {"256", "64"}}, {"feedback", {"sky"}}};  // 256 is what it is anyway
+  const Plan plan = makePlan(suite);
+  ASSERT_EQ(plan.sequences.size(), 2u + 2u + 2u + 2u);
+  for (std::size_t i = 4; i < 8; ++i) {
+    const Technique& technique = plan.sequences[i].technique;
+    EXPECT_EQ(plan.sequences[i].scene, 1u);
+    EXPECT_EQ(technique.bounces, i % 2 == 0 ? 1 : 2);
+    EXPECT_EQ(technique.resolution, i < 6 ? 64 : 256);
+    EXPECT_EQ(technique.feedback, i < 6 ? Feedback::previousFrame : Feedback::sky);
+  }
+}
+
+// The values that an axis names, without their parameters.
+std::vector<std::string> namedValues(const Axis& axis) {
+  std::vector<std::string> values;
+  std::string rest = axis.values;
+  for (std::size_t bar = rest.find(" | "); bar != std::string::npos; bar = rest.find(" | ")) {
+    values.push_back(rest.substr(0, rest.find_first_of("?| ")));
+    rest = rest.substr(bar + 3);
+  }
+  if (!values.empty()) values.push_back(rest.substr(0, rest.find('?')));
+  return values;
+}
+
+TEST(Survey, TriesEveryValueOfEveryAxis) {
+  const Suite suite = loadSuite("survey");
+  for (const Axis& axis : axisTable()) {
+    std::set<std::string> tried = {parseSpec(axis.print(suite.technique)).name};
+    for (const SuiteScene& scene : suite.scenes)
+      for (const auto& [name, values] : scene.vary)
+        if (name == axis.name)
+          for (const std::string& value : values) tried.insert(parseSpec(value).name);
+    EXPECT_GE(tried.size(), 2u) << axis.name;
+    for (const std::string& value : namedValues(axis)) EXPECT_TRUE(tried.contains(value)) << axis.name << " " << value;
+  }
 }
 
 TEST(Plan, WithoutGrid_IsTheBaseTechniqueAlone) {

@@ -25,8 +25,7 @@ class RasterGloss : public RasterTest {
   using Levels = std::vector<std::vector<Grid<vec4>>>;
 
   template <class Radiance>
-  Levels filtered(ProbeFilter filter, int size, const Radiance& radiance,
-                  const TexelFormat& format = floatTexels()) {
+  Levels filtered(ProbeFilter filter, int size, const Radiance& radiance, const TexelFormat& format = floatTexels()) {
     gl::Context& context = device().impl().context;
     context.makeCurrent();
     const gl::Functions& gl = context.functions();
@@ -165,7 +164,8 @@ vec3 convolved(const std::vector<Grid<vec4>>& faces, const vec3& axis, float alp
         const float NoL = glm::dot(d, axis) / distance;
         if (NoL <= 0.0f) continue;
         const float NoH = std::sqrt(0.5f * (1.0f + NoL));
-        const double weight = double{shading::D_GGX(NoH, 0.5f * (1.0f - NoL), alpha) * NoL / (distance * distance * distance)};
+        const double weight =
+            double{shading::D_GGX(NoH, 0.5f * (1.0f - NoL), alpha) * NoL / (distance * distance * distance)};
         sum += weight * glm::dvec3(texels(x / kSplit, y / kSplit));
         weights += weight;
       }
