@@ -386,24 +386,37 @@ std::string circumstances(const Provenance& p) {
   return "## Circumstances\n\n" + toMarkdown(table);
 }
 
+// What is fixed in the whole run, in words short enough to be read.
+std::string fixedText(std::vector<std::string> shared, const AxisValues& defaults) {
+  const std::size_t all = shared.size();
+  std::erase_if(shared, [&](const std::string& setting) {
+    return std::ranges::any_of(defaults, [&](const auto& d) { return setting == d.first + "=" + d.second; });
+  });
+  if (all == 0) return "";
+  const bool hasOthers = shared.size() < all;
+  if (shared.empty()) return "Axes that don't vary stand at their defaults.\n\n";
+  return fmt::format("Fixed in the whole run: {}{}.\n\n", fmt::join(shared, ", "),
+                     hasOthers ? "; other axes that don't vary stand at their defaults" : "");
+}
+
 }  // namespace
 
-std::string makeReport(const Results& results) {
+std::string makeReport(const Results& results, const AxisValues& defaults) {
   const std::vector<Section> sections = sectionsOf(results.cells);
   std::string text = fmt::format("# {}: error and cost of reflection probes\n\n{} cells, control {}.\n\n",
                                  results.provenance.suiteName, results.cells.size(), results.provenance.controlOutcome);
   text += kLegend;
   const std::vector<std::string> shared = sharedAxes(sections);
-  if (!shared.empty()) text += fmt::format("Fixed in the whole run: {}.\n\n", fmt::join(shared, ", "));
+  text += fixedText(shared, defaults);
   for (const Section& section : sections) text += sectionText(section, shared);
   return text + circumstances(results.provenance);
 }
 
-void writeReport(const Results& results, const std::string& directory) {
+void writeReport(const Results& results, const std::string& directory, const AxisValues& defaults) {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
   if (failure) throwEnvironmentError("can't make directory '{}': {}", directory, failure.message());
-  writeFileAtomically(directory + "/report.md", makeReport(results));
+  writeFileAtomically(directory + "/report.md", makeReport(results, defaults));
   writeFileAtomically(directory + "/report.csv", toCsv(results));
 }
 

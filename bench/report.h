@@ -8,9 +8,10 @@
 
 namespace pb {
 
-std::string makeReport(const Results& results);
+// defaults: of the axes; those that stand there in the whole run need no words.
+std::string makeReport(const Results& results, const AxisValues& defaults = {});
 
 // Writes report.md and report.csv into the directory (made if absent).
-void writeReport(const Results& results, const std::string& directory);
+void writeReport(const Results& results, const std::string& directory, const AxisValues& defaults = {});
 
 }  // namespace pb

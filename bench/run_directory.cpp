@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "bench/axes.h"
 #include "bench/report.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
@@ -111,7 +112,7 @@ void RunDirectory::finish(const Results& results, const std::string& benchmarkJs
   const auto path = [&](const char* name) { return (folder_ / name).string(); };
   if (!benchmarkJson.empty()) writeFileAtomically(path("benchmark.json"), benchmarkJson);
   writeFileAtomically(path("results.csv"), toCsv(results));
-  writeFileAtomically(path("report.md"), makeReport(results));
+  writeFileAtomically(path("report.md"), makeReport(results, describe(Technique())));
   writeFileAtomically(path("results.json"), toJson(results));
 }
 

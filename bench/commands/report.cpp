@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "bench/axes.h"
 #include "bench/commands/commands.h"
 
 namespace pb {
@@ -12,8 +13,8 @@ namespace {
 
 int report(const std::string& run, const std::string& output) {
   const Results results = readResults(run);
-  fmt::print("{}", makeReport(results));
-  if (!output.empty()) writeReport(results, output);
+  fmt::print("{}", makeReport(results, describe(Technique())));
+  if (!output.empty()) writeReport(results, output, describe(Technique()));
   return 0;
 }
 

@@ -61,7 +61,7 @@ int finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& sui
   for (const auto& [what, why] : outcome.skipped) provenance.settings.emplace_back(what, "skipped: " + why);
   const Results results{std::move(provenance), suite.tolerance, outcome.cells};
   directory.finish(results, outcome.benchmarkJson);
-  fmt::print("{}", makeReport(results));
+  fmt::print("{}", makeReport(results, describe(Technique())));
   fmt::print(stderr, "report: {}\n", (directory.folder() / "report.md").string());
   if (outcome.noisyReferences.empty()) return 0;
   throw Error(Failure::inconclusive, fmt::format("{} references are too noisy; the first: {}",

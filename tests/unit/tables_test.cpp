@@ -102,6 +102,13 @@ TEST(Sections, ErrorIsClearOfTheFloorFromTenTimesOn) {
   EXPECT_TRUE(isClearOfFloor({&cell}, Region::mask));
 }
 
+TEST(Report, LeavesOutAxesThatStandAtTheirDefaults) {
+  const Results results = samples::makeResults();  // bounces = 1 throughout
+  EXPECT_THAT(makeReport(results, {{"bounces", "1"}}),
+              HasSubstr("\n\nAxes that don't vary stand at their defaults.\n\n"));
+  EXPECT_THAT(makeReport(results, {{"bounces", "2"}}), HasSubstr("\n\nFixed in the whole run: bounces=1.\n\n"));
+}
+
 TEST(Report, ShowsOneTableAQuestion) {
   const std::string report = makeReport(samples::makeResults());
   EXPECT_THAT(report, HasSubstr("\n\nFixed in the whole run: bounces=1.\n\n## builtin:a, camera main\n\nframes 0 1\n"));
