@@ -489,8 +489,8 @@ TEST(BuiltinScenes, InRooms_StateThem) {
   for (const char* name : {"mirror-cube", "planar-floor", "hall-of-mirrors"}) {
     const auto scene = std::make_shared<const Scene>(makeBuiltinScene({name, {}}));
     Bounds all;
-    for (const SnapshotInstance& instance : makeSnapshot(scene, 0, "", 1.0)->instances)
-      all.include(instance.worldBounds);
+    const auto snapshot = makeSnapshot(scene, 0, "", 1.0);
+    for (const SnapshotInstance& instance : snapshot->instances) all.include(instance.worldBounds);
     ASSERT_TRUE(scene->room.has_value()) << name;
     EXPECT_EQ(scene->room->lower, all.lower) << name;
     EXPECT_EQ(scene->room->upper, all.upper) << name;
