@@ -17,6 +17,9 @@ constexpr int kTargets = 3;
 // Markers are floats, exact up to here.
 constexpr int kLastMarker = 1 << 24;
 constexpr int kCollectEdge = 8;  // of collect_lookups.comp
+// Regions begin at multiples of this many records: of 256 bytes, the largest alignment of bound ranges that drivers ask
+// for, in records and in entries.
+constexpr std::int64_t kRegionAlignment = 32;
 
 std::int64_t recordsBytes(std::int64_t records) { return records * (kRecordBytes + kEntriesBytes); }
 
@@ -80,12 +83,13 @@ bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) 
   Captured& captured = captured_[static_cast<std::size_t>(probe)];
   std::int64_t records = 0;
   for (std::size_t lookedUp = 0; lookedUp < texels.size(); ++lookedUp) {
+    if (texels[lookedUp] * kRecordBytes > largestBlock_) return false;
     captured.regions[lookedUp] = {records, texels[lookedUp]};
-    records += texels[lookedUp];
+    records += (texels[lookedUp] + kRegionAlignment - 1) / kRegionAlignment * kRegionAlignment;
   }
   if (records > captured.capacity) {
     const std::int64_t more = recordsBytes(records - captured.capacity);
-    if (records * kRecordBytes > largestBlock_ || bytes() + more > allowedBytes_) return false;
+    if (bytes() + more > allowedBytes_) return false;
     captured.capacity = records;
     captured.records = gl::Buffer();  // first, so that both needn't fit
     captured.entries = gl::Buffer();
@@ -127,16 +131,15 @@ void LookupRecords::keepMarks() const { writeTo(0); }
 void LookupRecords::endCapture(const ProbeFace& face, const CaptureLookups& lookups) {
   writeTo(kTargets);
   const Captured& captured = captured_[static_cast<std::size_t>(face.probe)];
-  bind(captured);
   for (GLuint i = 0; i < kTargets; ++i) gl_.BindTextureUnit(gpu::kLookupRestUnit + i, targets_[i].id());
   gl_.UseProgram(collect_);
   for (int lookedUp = 0; lookedUp < probes_; ++lookedUp) {
     const TexelRect& area = lookups.areas[static_cast<std::size_t>(lookedUp)];
     if (area.texels() == 0) continue;
+    bind(captured, captured.regions[static_cast<std::size_t>(lookedUp)]);
     const int columns = area.right - area.left, rows = area.bottom - area.top;
     gl_.Uniform4i(0, area.left, area.top, columns, rows);
-    gl_.Uniform4i(1, face.face, marker_ + lookedUp, static_cast<GLint>(listOf(0, face.probe, lookedUp)),
-                  static_cast<GLint>(captured.regions[static_cast<std::size_t>(lookedUp)].first));
+    gl_.Uniform3i(1, face.face, marker_ + lookedUp, static_cast<GLint>(listOf(0, face.probe, lookedUp)));
     gl_.DispatchCompute(static_cast<GLuint>(groupsOf(columns)), static_cast<GLuint>(groupsOf(rows)), 1);
   }
 }
@@ -147,7 +150,6 @@ void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<M
   Captured& captured = captured_[static_cast<std::size_t>(probe)];
   const int repetition = captured.repetitions++;
   gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-  bind(captured);
   gl_.BindImageTexture(gpu::kLookupTargetImage, maps.captured(probe).id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
   gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, lists_.id());
   gl_.UseProgram(repeat_);
@@ -156,9 +158,9 @@ void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<M
     if (region.records == 0) continue;
     const std::size_t list = listOf(repetition, probe, lookedUp);
     const GLuint next = isLast ? kNoList : static_cast<GLuint>(listOf(repetition + 1, probe, lookedUp));
+    bind(captured, region);
     maps.bind(lookedUp);
-    gl_.Uniform4ui(0, static_cast<GLuint>(list), next, static_cast<GLuint>(region.first),
-                   static_cast<GLuint>(repetition));
+    gl_.Uniform3ui(0, static_cast<GLuint>(list), next, static_cast<GLuint>(repetition));
     gl_.Uniform2f(1, largestRadiance, static_cast<float>(states[static_cast<std::size_t>(lookedUp)]));
     gl_.DispatchComputeIndirect(static_cast<GLintptr>(list * sizeof(List)));
   }
@@ -166,10 +168,15 @@ void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<M
                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void LookupRecords::bind(const Captured& captured) const {
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLookupRecordBlock, captured.records.id());
+// The shaders see one region: all of a capture's records may be more than a block can hold.
+void LookupRecords::bind(const Captured& captured, const Region& region) const {
+  const auto bindRange = [&](GLuint block, const gl::Buffer& buffer, std::int64_t bytesEach) {
+    gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, block, buffer.id(), static_cast<GLintptr>(region.first * bytesEach),
+                        static_cast<GLsizeiptr>(region.records * bytesEach));
+  };
+  bindRange(gpu::kLookupRecordBlock, captured.records, kRecordBytes);
+  bindRange(gpu::kLookupIndexBlock, captured.entries, kEntriesBytes);
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLookupListBlock, lists_.id());
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLookupIndexBlock, captured.entries.id());
 }
 
 std::int64_t LookupRecords::bytes() const {

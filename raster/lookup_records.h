@@ -86,7 +86,7 @@ class LookupRecords {
   using List = std::array<std::uint32_t, 4>;
 
   std::size_t listOf(int repetition, int probe, int lookedUp) const;
-  void bind(const Captured& captured) const;
+  void bind(const Captured& captured, const Region& region) const;
   void writeTo(int targets) const;
 
   const gl::Functions& gl_;

@@ -11,8 +11,8 @@ layout(binding = kLookupWeightUnit) uniform sampler2D weightAndLod;
 layout(binding = kLookupDirectionUnit) uniform sampler2D directionAndUnsettled;
 // x y first texel, z w number of columns and rows
 layout(location = 0) uniform ivec4 area;
-// x face, y marker of the texels, z the list, w its region's first record
-layout(location = 1) uniform ivec4 job;
+// x face, y marker of the texels, z the list
+layout(location = 1) uniform ivec3 job;
 
 void main() {
   ivec2 p = ivec2(gl_GlobalInvocationID.xy);
@@ -22,7 +22,7 @@ void main() {
   if (int(rest.w) != job.y) return;
   vec4 direction = texelFetch(directionAndUnsettled, p, 0);
   if (direction.w == 0.0f) return;
-  uint record = uint(job.w) + addToList(uint(job.z));
+  uint record = addToList(uint(job.z));
   vec4 weight = texelFetch(weightAndLod, p, 0);
   records[record].rest = vec3(rest);
   records[record].texel = uint(p.x) | (uint(p.y) << 14u) | (uint(job.x) << 28u);

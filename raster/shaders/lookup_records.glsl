@@ -1,6 +1,6 @@
 // What texels of captures show as a function of what a probe's map shows: rest + weight * radiance of the map's level
 // `lod` along `direction`. The records of one captured probe stand in one buffer, in a region for each probe looked up,
-// in no particular order.
+// in no particular order; what is bound is one region.
 
 struct LookupRecord {
   vec3 rest;
