@@ -1,0 +1,58 @@
+// The techniques of a run as choices: error, cost and memory of each, over the scenes that a question is about.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/estimate.h"
+#include "bench/results.h"
+#include "bench/sections.h"
+
+namespace pb {
+
+struct Selection {
+  std::string metric = "flip_hdr";
+  std::optional<Region> region;  // none: the mask on scenes that have one
+  std::string scenes;            // regular expression searched in the scenes' names; empty: all
+  std::string object;            // errors of this object or material alone; empty: of the region
+  bool worstFrame = false;       // in place of the mean over the frames
+};
+
+struct Candidate {
+  AxisValues technique;
+  Estimate loss;                    // smaller is better, see lossOf()
+  std::string worstScene;           // where the loss is largest
+  std::optional<Estimate> ratio;    // frame over plain frame, of the scene where it is largest
+  std::optional<Estimate> frameMs;  // likewise
+  double probeBytes = 0;            // likewise
+  bool clearOfFloor = true;         // on all scenes
+  std::vector<const CellResult*> worstCells;  // frames of the worst scene
+};
+
+struct CandidateSet {
+  std::vector<Candidate> candidates;  // measured on all scenes, in the order of the run
+  std::vector<std::string> scenes;
+  std::vector<VaryingAxis> axes;  // in which the candidates differ
+  std::size_t elsewhere = 0;      // techniques that were measured on some of the scenes only
+  bool onMask = false;            // some errors are of the mask
+};
+
+// The value where less is better, its negative where more is, its amount for "bias".
+double lossOf(const std::string& metric, double value);
+// Its inverse: the metric of a loss ("bias": its amount).
+double metricOfLoss(const std::string& metric, double loss);
+
+// Error of one cell as the selection asks for it, with its interval if the results have one; nullopt where it is
+// undefined or the object is not in sight.
+std::optional<Estimate> lossOf(const CellResult& cell, const Selection& selection, Region region);
+
+// Throws input Errors for an unknown metric, a pattern that is no regular expression or matches no scene, and an object
+// that no scene shows. The cells must outlive the result.
+CandidateSet candidatesOf(const Results& results, const Selection& selection);
+
+// "resolution=128 bounces=2": the axes in which the candidates differ; "the only technique" if there are none.
+std::string techniqueText(const AxisValues& technique, const std::vector<VaryingAxis>& axes);
+
+}  // namespace pb
