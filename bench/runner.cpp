@@ -12,12 +12,12 @@
 
 #include "bench/axes.h"
 #include "bench/cost.h"
+#include "bench/cost_request.h"
 #include "bench/external.h"
 #include "bench/interrupt.h"
 #include "bench/noise.h"
 #include "bench/truth.h"
 #include "bench/version.h"
-#include "raster/probe_layout.h"
 #include "scenes/error.h"
 #include "scenes/image_io.h"
 
@@ -69,11 +69,6 @@ std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameStats
           {"texels_filtered", counters.texelsFiltered},
           {"coats_from_probe", std::accumulate(ofProbes.begin(), ofProbes.end(), std::int64_t{0})},
           {"coats_from_environment", stats.coats.fromEnvironment}};
-}
-
-int probeCount(const Technique& technique, const Snapshot& snapshot) {
-  ProbeLayout layout(technique);
-  return static_cast<int>(layout.apply(snapshot).probes.size());
 }
 
 // Letters, digits and a few signs stay; anything else would be a surprise in a file name.
@@ -296,7 +291,7 @@ class Runner {
   std::string measureCost(std::vector<CellResult>& cells) {
     std::vector<CostRequest> requests;
     for (const PlannedSequence& sequence : c_.plan.sequences)
-      if (!sequence.external) requests.push_back(costRequest(sequence));
+      if (!sequence.external) requests.push_back(makeCostRequest(c_.suite, c_.scenes, sequence));
     const std::map<std::string, std::string> context = {
         {"probebench_version", toolVersion()},
         {"probebench_git", gitHash()},
@@ -314,16 +309,6 @@ class Runner {
     for (CellResult& cell : cells)
       if (const auto cost = costs.find(cell.sequenceKey()); cost != costs.end()) cell.cost = *cost->second;
     return run.benchmarkJson;
-  }
-
-  CostRequest costRequest(const PlannedSequence& sequence) const {
-    CostRequest request{makeCell(c_.suite, sequence, 0).sequenceKey(), sequence.technique, {}};
-    const SuiteScene& scene = suiteScene(sequence.scene);
-    request.snapshots.push_back(snapshot(sequence.scene, scene.startFrame()));
-    const int frames = blockFrames(sequence.technique, probeCount(sequence.technique, *request.snapshots[0]),
-                                   static_cast<int>(scene.frames.size()));
-    for (int i = 1; i <= frames; ++i) request.snapshots.push_back(snapshot(sequence.scene, scene.startFrame() + i));
-    return request;
   }
 
   const RunContext& c_;
