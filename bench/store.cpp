@@ -85,6 +85,8 @@ std::string ReferenceStore::describe(const ReferenceRequest& request) {
       settings.diffuseDepth ? std::to_string(*settings.diffuseDepth) : "unlimited", settings.seed,
       settings.sampling == Sampling::sobol ? "sobol" : "independent", fmt::join(settings.hiddenInstances, ","),
       kIntegratorVersion, embreeVersion());
+  if (!settings.hiddenFromPrimary.empty())
+    text += fmt::format(" hidden from primary rays [{}]", fmt::join(settings.hiddenFromPrimary, ","));
   if (request.refinement)
     text += fmt::format(" pass {} of max_noise {} spp at most {}", request.refinement->pass,
                         request.refinement->goal.maxNoise, request.refinement->goal.maxSpp);

@@ -68,7 +68,7 @@ class Path {
   bool goOn() {
     const bool unoccluded = specularHits_ == settings_.depth;
     if (!unoccluded) ++result_.rays;
-    const std::optional<Hit> hit = unoccluded ? std::nullopt : scene_.intersect(ray_);
+    const std::optional<Hit> hit = unoccluded ? std::nullopt : intersect();
     if (!hit) {
       addEnvironment();
       return false;
@@ -80,6 +80,8 @@ class Path {
     const Medium& medium = media_.innermost();
     return goOnFrom(*hit, surface, segment, {medium, medium});
   }
+
+  std::optional<Hit> intersect() const { return isPrimary_ ? scene_.intersectPrimary(ray_) : scene_.intersect(ray_); }
 
   bool goOnFrom(const Hit& hit, const shading::Surface& surface, float segment, const Interface& interface) {
     absorb(interface.before, segment);
@@ -147,6 +149,7 @@ class Path {
     if (next->lobe != Lobe::straight) {
       pdf_ = lightWasSampled ? next->pdf : 0.0f;
       lastPosition_ = surface.position;
+      isPrimary_ = false;
       if (next->lobe == Lobe::specular) ++specularHits_;
       if (next->lobe == Lobe::diffuse) onlyLightCounts_ = diffuseBounces_++ == settings_.diffuseDepth;
       if (!survives(next->lobe, next->weight)) return false;
@@ -215,6 +218,7 @@ class Path {
 
   Ray ray_;
   glm::vec3 d_;  // of the ray, unit
+  bool isPrimary_ = true;
   glm::vec3 throughput_{1.0f};
   float lengthMetres_ = 0.0f;
   int specularHits_ = 0;

@@ -148,14 +148,16 @@ struct Rendering {
 struct ReferenceScene::Impl {
   explicit Impl(std::shared_ptr<const Snapshot> snapshot_) : snapshot(std::move(snapshot_)), embree(*snapshot) {}
 
-  TracedScene without(const std::vector<int>& hidden) const {
-    return {*snapshot, embree, hiddenFlags(*snapshot, hidden)};
+  TracedScene without(const std::vector<int>& hidden, const std::vector<int>& hiddenFromPrimary) const {
+    std::vector<int> all = hidden;
+    all.insert(all.end(), hiddenFromPrimary.begin(), hiddenFromPrimary.end());
+    return {*snapshot, embree, hiddenFlags(*snapshot, hidden), hiddenFlags(*snapshot, all)};
   }
 
-  // The same, where paths will look for light; what that takes is made when it is first needed.
-  TracedScene litWithout(const std::vector<int>& hidden) const {
+  // The scene where paths will look for light; what that takes is made when it is first needed.
+  TracedScene litFor(const ReferenceSettings& settings) const {
     std::call_once(lightsMade, [&] { lights = std::make_unique<LightSampler>(*snapshot); });
-    TracedScene scene = without(hidden);
+    TracedScene scene = without(settings.hiddenInstances, settings.hiddenFromPrimary);
     if (!lights->empty()) scene.lights = lights.get();
     return scene;
   }
@@ -178,8 +180,7 @@ ReferenceImage ReferenceScene::render(const shading::View& view, int widthPx, in
   checkDepth(settings);
   assert(samples == nullptr || (samples->width() == widthPx && samples->height() == heightPx));
   const int n = settings.samplesPerAxis;
-  const Rendering rendering{impl_->litWithout(settings.hiddenInstances), settings,
-                            PrimaryRays(view, widthPx * n, heightPx * n), samples};
+  const Rendering rendering{impl_->litFor(settings), settings, PrimaryRays(view, widthPx * n, heightPx * n), samples};
   ReferenceImage image;
   image.batches.assign(static_cast<std::size_t>(std::min(settings.spp, kMaxBatches)), Image(widthPx, heightPx));
   std::atomic<std::int64_t> rays = 0;  // of whole numbers: the order of adding doesn't matter
@@ -196,7 +197,7 @@ ReferenceImage ReferenceScene::render(const shading::View& view, int widthPx, in
 Grid<SampleId> ReferenceScene::renderIds(const shading::View& view, int widthPx, int heightPx,
                                          int samplesPerAxis) const {
   checkSize(widthPx, heightPx, samplesPerAxis);
-  const TracedScene scene = impl_->without({});
+  const TracedScene scene = impl_->without({}, {});
   Grid<SampleId> ids(widthPx * samplesPerAxis, heightPx * samplesPerAxis);
   const PrimaryRays primaries(view, ids.width(), ids.height());
   forEachTile(ids.width(), ids.height(), nullptr, [&](const Tile& tile) {
@@ -207,11 +208,25 @@ Grid<SampleId> ReferenceScene::renderIds(const shading::View& view, int widthPx,
   return ids;
 }
 
+Plane ReferenceScene::renderDistances(const shading::View& view, int widthPx, int heightPx,
+                                      const std::vector<int>& hiddenInstances) const {
+  checkSize(widthPx, heightPx, 1);
+  const TracedScene scene = impl_->without(hiddenInstances, {});
+  Plane distances(widthPx, heightPx);
+  const PrimaryRays primaries(view, widthPx, heightPx);
+  forEachTile(widthPx, heightPx, nullptr, [&](const Tile& tile) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        distances(x, y) = distanceAlong(scene, primaries.ray(x, y), primaries.conePerMetre());
+  });
+  return distances;
+}
+
 glm::vec3 ReferenceScene::radiance(glm::vec3 origin, glm::vec3 direction, const ReferenceSettings& settings,
                                    std::uint64_t sample) const {
   checkDepth(settings);
   Sampler sampler(settings.seed, 0, sample);
-  return tracePath(impl_->litWithout(settings.hiddenInstances), {origin, direction}, 0.0f, settings, sampler).radiance;
+  return tracePath(impl_->litFor(settings), {origin, direction}, 0.0f, settings, sampler).radiance;
 }
 
 }  // namespace pb

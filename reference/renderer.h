@@ -29,7 +29,8 @@ struct ReferenceSettings {
                                       // direct light and the occluded sky; none: unlimited
   std::uint64_t seed = 1;
   Sampling sampling = Sampling::sobol;
-  std::vector<int> hiddenInstances{};  // left out of the scene for every ray
+  std::vector<int> hiddenInstances{};    // left out of the scene for every ray
+  std::vector<int> hiddenFromPrimary{};  // for rays from the viewer, until they are reflected, refracted or scattered
 
   friend bool operator==(const ReferenceSettings&, const ReferenceSettings&) = default;
 };
@@ -68,6 +69,11 @@ class ReferenceScene {
 
   // What each primary sample shows: (width * S) x (height * S).
   Grid<SampleId> renderIds(const shading::View& view, int widthPx, int heightPx, int samplesPerAxis) const;
+
+  // Distances in metres along the view's axis to what rays through the pixels' centres meet, which are surfaces with
+  // any coverage, except for the hidden instances; infinity: nothing.
+  Plane renderDistances(const shading::View& view, int widthPx, int heightPx,
+                        const std::vector<int>& hiddenInstances) const;
 
   // Radiance along one ray; for tests of closed forms. `direction` need not be normalised.
   glm::vec3 radiance(glm::vec3 origin, glm::vec3 direction, const ReferenceSettings& settings,

@@ -36,6 +36,26 @@ glm::vec4 worldTangent(const SnapshotInstance& instance, const glm::vec4& tangen
   return {shading::safeNormalize(direction), instance.mirrored ? -tangent.w : tangent.w};
 }
 
+struct VisibleHit {
+  Hit hit;
+  SurfaceAttributes attributes;
+  float lengthMetres;
+};
+
+// The nearest surface with any coverage: as ids.frag in the raster.
+std::optional<VisibleHit> nearestVisible(const TracedScene& scene, const Ray& primary, float conePerMetre) {
+  const glm::vec3 d = shading::safeNormalize(primary.direction);
+  float lengthMetres = 0.0f;
+  Ray ray = primary;
+  while (const std::optional<Hit> hit = scene.intersectPrimary(ray)) {
+    lengthMetres += hit->t * glm::length(ray.direction);
+    const SurfaceAttributes a = interpolate(scene, *hit, d, conePerMetre * lengthMetres);
+    if (readSurface(scene.snapshot, scene.materialOf(*hit), a).opacity > 0.0f) return VisibleHit{*hit, a, lengthMetres};
+    ray = {offsetOrigin(scene, *hit, a.position, d), d};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 SurfaceAttributes interpolate(const TracedScene& scene, const Hit& hit, const glm::vec3& d, float coneWidth) {
@@ -79,22 +99,18 @@ glm::vec3 offsetOrigin(const TracedScene& scene, const Hit& hit, const glm::vec3
   return position + side * kRelativeOffset * largest * hit.geometricNormal;
 }
 
-// Of the nearest surface with any coverage: as ids.frag in the raster.
 SampleId identify(const TracedScene& scene, const Ray& primary, float conePerMetre) {
-  const glm::vec3 d = shading::safeNormalize(primary.direction);
-  float lengthMetres = 0.0f;
-  Ray ray = primary;
-  while (const std::optional<Hit> hit = scene.intersect(ray)) {
-    lengthMetres += hit->t * glm::length(ray.direction);
-    const SurfaceAttributes a = interpolate(scene, *hit, d, conePerMetre * lengthMetres);
-    const Material& material = scene.materialOf(*hit);
-    if (readSurface(scene.snapshot, material, a).opacity > 0.0f)
-      return {.instance = static_cast<std::uint32_t>(hit->instance) + 1,
-              .group = scene.instanceOf(*hit).mesh->smoothingGroups[hit->triangle] + 1,
-              .texel = baseColorTexelId(*scene.snapshot.scene, material, a)};
-    ray = {offsetOrigin(scene, *hit, a.position, d), d};
-  }
-  return {};
+  const std::optional<VisibleHit> visible = nearestVisible(scene, primary, conePerMetre);
+  if (!visible) return {};
+  const Hit& hit = visible->hit;
+  return {.instance = static_cast<std::uint32_t>(hit.instance) + 1,
+          .group = scene.instanceOf(hit).mesh->smoothingGroups[hit.triangle] + 1,
+          .texel = baseColorTexelId(*scene.snapshot.scene, scene.materialOf(hit), visible->attributes)};
+}
+
+float distanceAlong(const TracedScene& scene, const Ray& primary, float conePerMetre) {
+  const std::optional<VisibleHit> visible = nearestVisible(scene, primary, conePerMetre);
+  return visible ? visible->lengthMetres / glm::length(primary.direction) : std::numeric_limits<float>::infinity();
 }
 
 }  // namespace pb

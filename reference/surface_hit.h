@@ -16,9 +16,11 @@ struct TracedScene {
   const Snapshot& snapshot;
   const EmbreeScene& embree;
   HiddenInstances hidden;
+  HiddenInstances hiddenFromPrimary;     // those included that are hidden from all rays
   const LightSampler* lights = nullptr;  // none: light is only found by chance
 
   std::optional<Hit> intersect(const Ray& ray) const { return embree.intersect(ray, hidden); }
+  std::optional<Hit> intersectPrimary(const Ray& ray) const { return embree.intersect(ray, hiddenFromPrimary); }
   Occlusion occlusion(const Ray& ray, float tFar) const { return embree.occlusion(ray, tFar, hidden); }
   bool isHidden(int instance) const { return instance >= 0 && hidden[static_cast<std::size_t>(instance)] != 0; }
   const SnapshotInstance& instanceOf(const Hit& hit) const {
@@ -42,5 +44,8 @@ glm::vec3 offsetOrigin(const TracedScene& scene, const Hit& hit, const glm::vec3
 
 // What a primary ray shows.
 SampleId identify(const TracedScene& scene, const Ray& primary, float conePerMetre);
+
+// The length of a primary ray to that, in lengths of its direction; infinity for the environment.
+float distanceAlong(const TracedScene& scene, const Ray& primary, float conePerMetre);
 
 }  // namespace pb
