@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/cell_pictures.h"
 #include "bench/material_errors.h"
 #include "bench/metrics/metrics.h"
 #include "bench/tolerance.h"
@@ -101,6 +102,7 @@ struct CellResult {
   std::vector<FaceAges> faceAgeFrames;  // of each probe
   std::vector<int> coatsOfProbes;       // by probe: instances whose coat it serves, without one of their own
   std::vector<MaterialError> materials;
+  CellPictures pictures;
 
   // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in a run and in --only.
   std::string key() const;

@@ -172,6 +172,26 @@ std::vector<MaterialError> materialsFromJson(const Json& json) {
   return materials;
 }
 
+constexpr Field<CellPictures, std::string> kPictureFiles[] = {
+    {"reference", &CellPictures::reference},
+    {"rendered", &CellPictures::rendered},
+    {"flip", &CellPictures::flip},
+};
+
+// Without those that were not kept.
+Json picturesToJson(const CellPictures& pictures) {
+  Json json = Json::object();
+  for (const auto& field : kPictureFiles)
+    if (!(pictures.*field.member).empty()) json[field.key] = pictures.*field.member;
+  return json;
+}
+
+CellPictures picturesFromJson(const Json& json) {
+  CellPictures pictures;
+  for (const auto& field : kPictureFiles) pictures.*field.member = json.value(field.key, std::string());
+  return pictures;
+}
+
 CellResult cellFromJson(const Json& json) {
   CellResult cell;
   cell.scene = json.at("scene").get<std::string>();
@@ -193,6 +213,7 @@ CellResult cellFromJson(const Json& json) {
     cell.coatsOfProbes = coats->get<std::vector<int>>();
   if (const auto materials = json.find("materials"); materials != json.end())
     cell.materials = materialsFromJson(*materials);
+  if (const auto pictures = json.find("pictures"); pictures != json.end()) cell.pictures = picturesFromJson(*pictures);
   return cell;
 }
 
@@ -269,6 +290,7 @@ Json cellToJson(const CellResult& cell) {
   json["face_age_frames"] = faceAgesToJson(cell.faceAgeFrames);
   json["coats_of_probes"] = cell.coatsOfProbes;
   json["materials"] = materialsToJson(cell.materials);
+  if (cell.pictures != CellPictures()) json["pictures"] = picturesToJson(cell.pictures);
   return json;
 }
 

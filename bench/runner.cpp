@@ -189,8 +189,7 @@ class Runner {
       truths[frame] = maker.make(snapshot(scene, frame), suiteScene(scene).exposure, warnings);
       for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
       warnings.clear();
-      writeExr((c_.directory.imagesFolder() / (frameName(scene, frame) + "-reference.exr")).string(),
-               truths[frame]->mean);
+      writeExr((c_.directory.imagesFolder() / referenceName(scene, frame)).string(), truths[frame]->mean);
       c_.progress.step();
     }
     c_.progress.end();
@@ -227,23 +226,27 @@ class Runner {
     cell.unbiased = {{"mse", computeUnbiasedMse(image, truth.halfA, truth.halfB)}};
     cell.materials =
         computeMaterialErrors(*truth.snapshot->scene, truth.materials, truth.mean, image, scores.flipHdrMap);
-    if (cell.frame == sequence.frames.back()) writeImages(sequence, cell.frame, image, scores.flipHdrMap);
+    cell.pictures.reference = imagePath(referenceName(sequence.scene, cell.frame));
+    if (c_.suite.pictures.everyFrame || cell.frame == sequence.frames.back())
+      writeImages(sequence, cell, image, scores.flipHdrMap);
     c_.directory.append(cell);
     const std::lock_guard lock(mutex_);
     finished_.emplace(cell.key(), std::move(cell));
     c_.progress.step();
   }
 
-  // The last frame of a sequence shows its whole history; the others come from `probebench render --frame`.
-  void writeImages(const PlannedSequence& sequence, int frame, const Image& image, const Plane& flipMap) const {
-    std::string name = frameName(sequence.scene, frame);
+  // The last frame of a sequence shows its whole history; where the others are not kept, they come from `probebench
+  // render --frame`.
+  void writeImages(const PlannedSequence& sequence, CellResult& cell, const Image& image, const Plane& flipMap) const {
+    std::string name = frameName(sequence.scene, cell.frame);
     if (sequence.external)
       name += fmt::format("-{}={}", kExternalAxis, c_.suite.externals[*sequence.external].name);
     else
       name += techniqueName(sequence);
-    const std::string path = (c_.directory.imagesFolder() / name).string();
-    writeExr(path + ".exr", image);
-    writePngEncoded(path + "-flip.png", magma(flipMap));
+    cell.pictures.rendered = imagePath(name + ".exr");
+    cell.pictures.flip = imagePath(name + "-flip.png");
+    writeExr((c_.directory.folder() / cell.pictures.rendered).string(), image);
+    writePngEncoded((c_.directory.folder() / cell.pictures.flip).string(), magma(flipMap));
   }
 
   // The grid's axes, and the one that the scene varies.
@@ -263,6 +266,13 @@ class Runner {
   std::string frameName(std::size_t scene, int frame) const {
     constexpr std::size_t kMaxLength = 60;  // file names have at most 255 bytes, the axes come behind
     return fmt::format("{}-{}-frame{}", scene, fileName(c_.scenes[scene]->name.substr(0, kMaxLength)), frame);
+  }
+
+  std::string referenceName(std::size_t scene, int frame) const { return frameName(scene, frame) + "-reference.exr"; }
+
+  // As it stands in results: relative to the run's folder.
+  std::string imagePath(const std::string& name) const {
+    return (c_.directory.imagesFolder().filename() / name).generic_string();
   }
 
   std::vector<CellResult> orderedCells() const {

@@ -49,6 +49,20 @@ ImageSettings readImage(TomlReader& suite) {
   return image;
 }
 
+PictureSettings readPictures(TomlReader& suite) {
+  PictureSettings pictures;
+  std::optional<TomlReader> reader = suite.child("images");
+  if (!reader) return pictures;
+  if (const auto frames = reader->text("frames")) {
+    if (*frames != "all" && *frames != "last")
+      throwInputError("{}: 'frames' of 'images' wants \"last\" or \"all\", got '{}'",
+                      placeOf(suite.file(), *reader->find("frames")), *frames);
+    pictures.everyFrame = *frames == "all";
+  }
+  reader->finish();
+  return pictures;
+}
+
 void readDiffuse(TomlReader& reference, TruthSettings& truth) {
   if (const toml::node* node = reference.find("diffuse"))
     truth.diffuse =
@@ -326,6 +340,7 @@ Suite parseSuite(const std::string& toml, const std::string& place, const std::s
   Suite suite;
   suite.name = reader.text("name").value();
   suite.image = readImage(reader);
+  suite.pictures = readPictures(reader);
   suite.reference = readReference(reader);
   suite.cost = readCost(reader);
   suite.technique = readTechnique(reader);

@@ -49,6 +49,10 @@ struct TruthSettings {
   std::optional<double> maxNoise;     // relMSE of the noise floor; samples are added until it is met
 };
 
+struct PictureSettings {
+  bool everyFrame = false;  // keeps the pictures of every measured frame, else of a sequence's last one
+};
+
 struct CostSettings {
   int repetitions = 10;  // 0: no cost is measured
 };
@@ -58,6 +62,7 @@ struct Suite {
   ImageSettings image;
   TruthSettings reference;
   CostSettings cost;
+  PictureSettings pictures;
   Technique technique;  // base values of every axis
   std::vector<SuiteScene> scenes;
   std::vector<GridAxis> grid;                // in the order of the axis table
