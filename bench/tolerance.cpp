@@ -5,7 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace pb {
+
+std::string toleranceScope(const std::string& scene, const std::string& camera) {
+  return fmt::format("scene={} camera={}", scene, camera);
+}
+
+const Tolerance* findTolerance(const Tolerances& tolerances, std::string_view metric) {
+  const auto found = std::ranges::find(tolerances, metric, &Tolerances::value_type::first);
+  return found == tolerances.end() ? nullptr : &found->second;
+}
 
 double largestAllowedDelta(const Tolerance& tolerance, double baseline) {
   if (tolerance.kind == Tolerance::Kind::plain)
