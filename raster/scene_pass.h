@@ -8,12 +8,14 @@
 #include "raster/back_faces.h"
 #include "raster/captured_faces.h"
 #include "raster/device.h"
+#include "raster/draw_binder.h"
+#include "raster/frame_constants.h"
 #include "raster/lookup_records.h"
 #include "raster/reflection.h"
 #include "raster/render_target.h"
+#include "raster/scene_draws.h"
 #include "raster/shadow_maps.h"
 #include "raster/transparency.h"
-#include "raster/uniform_slots.h"
 
 namespace pb {
 
@@ -29,6 +31,8 @@ struct ShownProbes {
   const std::vector<GLuint>* mirroredViews = nullptr;  // by instance: the texture of the mirrored view that a flat
                                                        // reflector shows, 0 for none; null if nothing shows one
   const std::vector<MapState>* states = nullptr;       // by probe; for records only
+
+  bool isCapture() const { return hidden != kNoProbe; }
 };
 
 class ScenePass {
@@ -55,79 +59,33 @@ class ScenePass {
   void drawIds(std::size_t pass, const RenderTarget& target);
 
  private:
-  // An instance, with what is the same in all frames.
-  struct Draw {
-    SurfaceVariant variant;
-    int material;
-    std::size_t instance;
-    std::shared_ptr<const Mesh> source;
-    const GpuMesh* mesh;
-    GLuint showingEnvironment;
-    GLuint showingProbe;         // 0 for instances that look no probe's cube map up
-    GLuint showingBlend;         // 0 for instances that don't look up two
-    GLuint showingMirroredView;  // 0 for instances that never do
-    bool cullsBackFaces;
-    bool isClosedGlass;         // its back faces are seen from inside only
-    bool isCapturedFromInside;  // by its own probe
-    GLuint backFaces;           // program that draws what its fragments read; 0 if they read none
-    GLuint shadow;              // program that draws it to shadow maps; 0 if the scene casts no shadows
-    // In captures, which the technique may reduce.
-    struct Captured {
-      GLuint showingEnvironment = 0, showingProbe = 0, showingBlend = 0, backFaces = 0;
-      GLuint recordingProbe = 0;  // none if bounce iterations can't do without drawing it again
-      GLuint hidingLookups = 0;   // instead of showingEnvironment before surfaces that may have been recorded
-    } captured;
+  using Draws = std::vector<const SurfaceDraw*>;
 
-    bool isBlended() const { return variant.coverage == shading::kAlphaBlend; }
-  };
-  enum class Faces { both, front, back };
-  class Binder;
-
-  void buildDraws(const Snapshot& snapshot, const std::vector<int>& probeResolutions);
-  bool drawsFit(const Snapshot& snapshot, const std::vector<int>& probeResolutions) const;
-  void showShapes();
   void beginShadows();
-  std::vector<const Draw*> shadowCasters(const gpu::ShadowFace& face) const;
-  SurfaceVariant variantOf(const Snapshot& snapshot, const SnapshotInstance& instance) const;
-  void uploadInstances();
-  void uploadLights();
-  void uploadPasses(const std::vector<gpu::PassConstants>& passes);
-  void uploadProbes();
-  GLuint bindReflection(const Draw& draw, const ShownProbes& probes) const;
-  void bindProbe(const ProbeMaps& maps, int probe) const;
-  GLuint markDraw(const Draw& draw, GLuint program, const ShownProbes& probes, const LookupRecords& records) const;
+  Draws shadowCasters(const gpu::ShadowFace& face) const;
   void beginPass(std::size_t pass, const RenderTarget& target) const;
-  bool isVisible(const Draw& draw, std::size_t pass) const;
-  MeshNeeds meshNeeds(const SnapshotInstance& instance, bool hasBackFaces) const;
-  GLsizei indexCount(const Draw& draw, bool isCapture) const;
-  void drawTriangles(const Draw& draw, bool isCapture) const;
-  std::vector<const Draw*> visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const;
-  void drawSurfaces(const std::vector<const Draw*>& draws, std::size_t pass, const ShownProbes& probes,
+  bool isVisible(const SurfaceDraw& draw, std::size_t pass) const;
+  Draws visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const;
+  DrawBinder binderFor(const shading::View& view, bool isCapture = false) const;
+  void drawSurfaces(const Draws& draws, std::size_t pass, const ShownProbes& probes,
                     const LookupRecords* records = nullptr);
-  std::vector<const Draw*> readBehind(const Draw& draw, std::size_t pass) const;
-  void drawBackFaces(const Draw& draw, std::size_t pass, Binder& binder);
-  Faces facesOf(const Draw& draw, const shading::View& view) const;
+  GLuint markDraw(const SurfaceDraw& draw, GLuint program, const ShownProbes& probes,
+                  const LookupRecords& records) const;
+  GLuint bindReflection(const SurfaceDraw& draw, const ShownProbes& probes) const;
+  void bindProbe(const ProbeMaps& maps, int probe) const;
+  Draws readBehind(const SurfaceDraw& draw, std::size_t pass) const;
+  void drawBackFaces(const SurfaceDraw& draw, std::size_t pass, bool isCapture, DrawBinder& binder);
   void drawBackground() const;
 
   RasterDevice::Impl& device_;
   const gl::Functions& gl_;
   Technique technique_;
   std::shared_ptr<SceneResources> resources_;
+  SceneDraws draws_;
+  FrameConstants constants_;
   std::vector<Reflection> reflections_;  // by instance
-  GLuint background_ = 0;
-  std::size_t drawnEnvironment_ = 0;  // for which the draws were built
-  std::vector<int> drawnResolutions_;
   gl::VertexArray noVertices_;
-  const Snapshot* snapshot_ = nullptr;  // between beginFrame() and the last pass of the frame
-  std::vector<gpu::PassConstants> passes_;
-  std::vector<Draw> draws_;
-  UniformSlots<gpu::InstanceConstants> instanceSlots_;
-  UniformSlots<gpu::PassConstants> passSlots_;
-  UniformSlots<gpu::ProbeConstants> probeSlots_;  // only for lookups that read them
-  std::size_t lightCount_ = 0;
-  std::size_t areaLightCount_ = 0;
-  gl::Buffer lights_;
-  gl::Buffer areaLights_;
+  const Snapshot* snapshot_ = nullptr;       // between beginFrame() and the last pass of the frame
   std::optional<BackFaces> backFaces_;       // of scenes whose refraction reads them
   std::optional<TransparentLayers> layers_;  // of scenes with blended surfaces
   std::optional<ShadowMaps> shadows_;        // of scenes that cast shadows
