@@ -18,7 +18,7 @@ namespace {
 constexpr float kFlatness = kPlanarThickness;
 
 bool isPlanar(const Technique& technique) {
-  return technique.probes == ProbeUse::dynamic && lookupOf(technique.lookup).isPlanar;
+  return technique.probes != ProbeUse::environmentOnly && lookupOf(technique.lookup).isPlanar;
 }
 
 std::vector<glm::vec3> worldPositions(const SnapshotInstance& instance) {

@@ -1,6 +1,7 @@
 #include "raster/probe_maps.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 namespace pb {
@@ -118,6 +119,48 @@ void ProbeMaps::resize(int probe, int resolution) {
   }
   publish(scaled);
   context_.check("allocating cube maps");
+}
+
+void ProbeMaps::write(int probe, const std::array<Image, 6>& faces, const std::array<Plane, 6>& distances,
+                      float zNear) {
+  const Map& map = mapOf(probe);
+  std::vector<ProbeFace> written;
+  for (int face = 0; face < 6; ++face) {
+    writeRadiances(map, face, faces[static_cast<std::size_t>(face)]);
+    if (settings_.keepsDistances) writeDistances(map, face, distances[static_cast<std::size_t>(face)], zNear);
+    written.push_back({probe, face});
+  }
+  publish(written);
+  context_.check("writing a cube map");
+}
+
+void ProbeMaps::writeRadiances(const Map& map, int face, Image radiances) const {
+  for (glm::vec3& texel : radiances) {
+    texel = glm::min(texel, glm::vec3(format_.largestRadiance));
+    if (settings_.format == ProbeFormat::rgba8Srgb)  // written as it is stored
+      texel = {shading::srgbEncode(texel.x), shading::srgbEncode(texel.y), shading::srgbEncode(texel.z)};
+  }
+  gl_.TextureSubImage3D(map.captured().id(), 0, 0, 0, face, map.resolution, map.resolution, 1, GL_RGB, GL_FLOAT,
+                        radiances.data());
+}
+
+void ProbeMaps::writeDistances(const Map& map, int face, Plane distances, float zNear) const {
+  for (float& distance : distances) distance = zNear / distance;
+  gl_.TextureSubImage3D(map.capturedDepths().id(), 0, 0, 0, face, map.resolution, map.resolution, 1, GL_DEPTH_COMPONENT,
+                        GL_FLOAT, distances.data());
+}
+
+std::array<Plane, 6> ProbeMaps::readDistances(int probe, float zNear) const {
+  const Map& map = mapOf(probe);
+  std::array<Plane, 6> planes;
+  for (std::size_t face = 0; face < planes.size(); ++face) {
+    Plane& plane = planes[face] = Plane(map.resolution, map.resolution);
+    gl_.GetTextureSubImage(map.shownDepthLayers.id(), 0, 0, 0, static_cast<GLint>(face), map.resolution, map.resolution,
+                           1, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(plane.size() * sizeof(float)),
+                           plane.data());
+    for (float& depth : plane) depth = zNear / depth;  // 0 becomes infinity
+  }
+  return planes;
 }
 
 std::int64_t ProbeMaps::publish(const std::vector<ProbeFace>& captured) {

@@ -48,6 +48,11 @@ class ProbeMaps {
   // The layers whose captures publish() makes visible.
   const gl::Texture& captured(int probe) const { return mapOf(probe).captured(); }
 
+  // Shows that instead of a capture. faces: GL order, row 0 first in memory, of the probe's resolution; what the format
+  // can't hold becomes the largest radiance that it can. distances, for kept ones: metres along the axis of the face,
+  // infinite where nothing is; zNear as of captures.
+  void write(int probe, const std::array<Image, 6>& faces, const std::array<Plane, 6>& distances, float zNear);
+
   // Makes captures visible to the lookups that follow, in level 0. Returns the number of texels that a conversion
   // wrote.
   std::int64_t publish(const std::vector<ProbeFace>& captured);
@@ -60,6 +65,8 @@ class ProbeMaps {
   // The faces that are shown, in GL order; empty ones beyond a single view. Of other maps than cubes, the captured
   // ones.
   std::array<Image, 6> read(int probe, int level) const;
+  // As given to write(); for kept distances.
+  std::array<Plane, 6> readDistances(int probe, float zNear) const;
 
  private:
   struct Map {
@@ -96,6 +103,8 @@ class ProbeMaps {
   const Map& mapOf(int probe) const { return maps_[static_cast<std::size_t>(probe)]; }
 
   void copyToShown(const Map& map, int face) const;
+  void writeRadiances(const Map& map, int face, Image radiances) const;
+  void writeDistances(const Map& map, int face, Plane distances, float zNear) const;
 
   gl::Context& context_;
   const gl::Functions& gl_;

@@ -1,4 +1,10 @@
 // The approximation: a rasteriser with dynamic cube maps on OpenGL 4.5 core. Everything runs on the calling thread.
+//
+// Maps of probes may also come from elsewhere, an oracle's for example: with Technique::probes = ProbeUse::given
+// nothing is captured; RasterSequence::setProbe() gives each probe its six faces, before the first frame and again
+// whenever they change, and renderFrame() looks them up in the technique's format, storage and filtered levels. Where
+// the probes of a technique stand, how many texels they want and what their captures leave out says probeViews() in
+// raster/probe_views.h.
 #pragma once
 
 #include <array>
@@ -103,8 +109,18 @@ class RasterSequence {
   // What each primary sample of the snapshot shows: (width * S) x (height * S), row 0 on top.
   Grid<SampleId> renderIds(const Snapshot& snapshot);
 
+  // The map of a probe (index into probeViews().probes), looked up from the next frame on, for ProbeUse::given. faces:
+  // GL order, row 0 first in memory, linear radiance, as readProbe() returns them, of the probe's number of texels.
+  // distances, for lookups that read them: of what the faces show, metres along the axis of the face (not along the
+  // ray), at least the probe's zNear, infinity where nothing is. Throws an input Error unless the probes are given; the
+  // next frame throws one for a probe that isn't there, for faces or distances of another size, and for a map that is
+  // missing.
+  void setProbe(int probe, const std::array<Image, 6>& faces, const std::array<Plane, 6>& distances = {});
+
   // The six faces of a level of a probe's cube map as they are now, GL order, row 0 first in memory.
   std::array<Image, 6> readProbe(int probe, int level = 0);
+  // The distances of the same, as given to setProbe(). Throws an input Error if the technique's lookup reads none.
+  std::array<Plane, 6> readProbeDistances(int probe);
 
   struct Impl;
 

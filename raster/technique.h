@@ -25,8 +25,9 @@ enum class Placement { stated, origin, boxCentre, centroid };
 enum class SelfReflection { none, splitParts };
 enum class ProbeUse {
   dynamic,
-  environmentOnly
-};  // environmentOnly: no captures, reflections show the environment (a plain frame)
+  environmentOnly,  // no captures, reflections show the environment (a plain frame)
+  given             // no captures, RasterSequence::setProbe() says what the probes' maps show
+};
 
 struct Technique {
   std::string preset = "none";                  // what this began with, a name of bench/presets.h; no renderer reads it
