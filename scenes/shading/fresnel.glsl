@@ -35,8 +35,10 @@ PB_FUNC float F_ConductorChannel(float cosine, float eta, float k) {
   float t = eta * eta - k * k - s2;
   float sum = sqrt(t * t + 4.0f * eta * eta * k * k);  // a^2 + b^2
   float a = sqrt(max(0.5f * (sum + t), 0.0f));
-  float rs = (sum - 2.0f * a * c + c2) / (sum + 2.0f * a * c + c2);
-  float rp = rs * (c2 * sum - 2.0f * a * c * s2 + s2 * s2) / (c2 * sum + 2.0f * a * c * s2 + s2 * s2);
+  float b2 = max(0.5f * (sum - t), 0.0f);
+  // Sums of squares can't become negative where nothing reflects.
+  float rs = ((a - c) * (a - c) + b2) / ((a + c) * (a + c) + b2);
+  float rp = rs * ((a * c - s2) * (a * c - s2) + b2 * c2) / ((a * c + s2) * (a * c + s2) + b2 * c2);
   return 0.5f * (rs + rp);
 }
 

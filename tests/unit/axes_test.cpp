@@ -5,20 +5,10 @@
 
 #include <set>
 
-#include "scenes/error.h"
+#include "tests/error_message.h"
 
 namespace pb {
 namespace {
-
-std::string messageOf(const auto& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Failure::input);
-    return error.what();
-  }
-  return "no error";
-}
 
 TEST(Axes, EveryAxis_ReadsBackWhatItPrints) {
   Technique technique;

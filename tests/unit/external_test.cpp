@@ -9,9 +9,9 @@
 
 #include "bench/axes.h"
 #include "bench/report.h"
-#include "scenes/error.h"
 #include "scenes/files.h"
 #include "scenes/image_io.h"
+#include "tests/error_message.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/sample_results.h"
 
@@ -24,15 +24,6 @@ using testing::HasSubstr;
 Suite suiteWith(const std::string& external) {
   return parseSuite("schema = 1\nname = \"s\"\n[[scene]]\nuse = \"builtin:mirrors\"\n[[external]]\n" + external,
                     "s.toml", "/suites");
-}
-
-std::string messageOf(const auto& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(ExternalTechnique, Command_IsReadWithPathsOfTheSuite) {

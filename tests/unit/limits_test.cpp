@@ -6,7 +6,7 @@
 
 #include "raster/gpu_structs.h"
 #include "scenes/environment.h"
-#include "scenes/error.h"
+#include "tests/error_message.h"
 
 namespace pb {
 namespace {
@@ -17,17 +17,6 @@ constexpr DeviceLimits kDevice = {.cubeMapSizePx = 1024,
                                   .viewportPx = 4096,
                                   .textureUnits = 16,
                                   .bytes = 64 << 20};
-
-template <class Function>
-std::string messageOf(const Function& function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Failure::input);
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 Technique withResolution(int resolution) {
   Technique technique;

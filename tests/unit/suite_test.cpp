@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenes/error.h"
+#include "tests/error_message.h"
 
 namespace pb {
 namespace {
@@ -16,14 +16,8 @@ constexpr const char* kScene = "[[scene]]\nuse = \"builtin:mirrors\"\n";
 
 Suite parse(const std::string& text) { return parseSuite(text, "suites/s.toml", "suites"); }
 
-std::string messageOf(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Failure::input);
-    return error.what();
-  }
-  return "no error";
+std::string refusalOf(const std::string& text) {
+  return messageOf([&] { parse(text); });
 }
 
 TEST(Suite, WithEveryKey_IsReadWhole) {
@@ -129,7 +123,7 @@ struct BadSuite {
 class BadSuites : public testing::TestWithParam<BadSuite> {};
 
 TEST_P(BadSuites, AreRefusedByRuleValueAndLine) {
-  EXPECT_EQ(messageOf(kHead + std::string(GetParam().text)), GetParam().message);
+  EXPECT_EQ(refusalOf(kHead + std::string(GetParam().text)), GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -201,12 +195,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "suites/s.toml:6: 'absolute' wants a number from 0 to 1e+09, got -1"}));
 
 TEST(Suite, OfAnotherSchema_IsRefused) {
-  EXPECT_EQ(messageOf("schema = 2\nname = \"s\"\n"), "suites/s.toml:1: 'schema' wants 1, the only version there is");
-  EXPECT_EQ(messageOf("name = \"s\"\n"), "suites/s.toml:1: the suite needs a key 'schema'");
+  EXPECT_EQ(refusalOf("schema = 2\nname = \"s\"\n"), "suites/s.toml:1: 'schema' wants 1, the only version there is");
+  EXPECT_EQ(refusalOf("name = \"s\"\n"), "suites/s.toml:1: the suite needs a key 'schema'");
 }
 
 TEST(Suite, ThatIsNoToml_IsRefusedWithItsLine) {
-  EXPECT_THAT(messageOf("schema = 1\nname = \"s\n"), testing::StartsWith("suites/s.toml:2: "));
+  EXPECT_THAT(refusalOf("schema = 1\nname = \"s\n"), testing::StartsWith("suites/s.toml:2: "));
 }
 
 TEST(Suite, UnknownName_IsRefusedWithTheNearestShippedOne) {
