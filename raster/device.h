@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "raster/fault.h"
 #include "raster/gl/context.h"
 #include "raster/limits.h"
 #include "raster/programs.h"
@@ -23,6 +24,7 @@ struct RasterDevice::Impl {
   DeviceLimits limits;
   Programs programs;
   std::shared_ptr<SceneResources> resources;
+  PlantedFault fault;
 };
 
 }  // namespace pb

@@ -52,6 +52,7 @@ void ProbeCaptures::beginFrame(const Snapshot& snapshot) {
   resize();
   if (technique_.probes == ProbeUse::given) showGiven();
   due_ = isCaptured() ? dueFaces(technique_.refresh, history_, snapshot) : std::vector<ProbeFace>{};
+  device_.fault.changeDue(due_, history_.frame);
   shown_ = mapsShownAtFirst();
   levels_ = probesWithLevels(technique_, snapshot);
 }
@@ -121,7 +122,10 @@ void ProbeCaptures::checkGiven(std::size_t probe, const GivenProbe& content) con
 }
 
 std::vector<gpu::PassConstants> ProbeCaptures::passes() const {
-  return iterations_ ? capturePasses(technique_, *snapshot_, resolutions_) : std::vector<gpu::PassConstants>{};
+  if (!iterations_) return {};
+  std::vector<gpu::PassConstants> passes = capturePasses(technique_, *snapshot_, resolutions_);
+  device_.fault.changePasses(passes);
+  return passes;
 }
 
 // What lookups read before the frame's first capture: maps that are complete, unless the technique wants probes that
@@ -140,9 +144,11 @@ void ProbeCaptures::capture(FrameWork& work) {
   if (hasMaps()) work.counters.probeBytes += probeBytes(technique_, resolutions_, levelFilter(technique_, *snapshot_));
   if (maps_) filterLevels(*maps_, levels_, work);  // of probes that rough lobes look up for the first time
   if (iterations_) {
+    const PlantedFault::Depth depth(device_.fault, device_.context.functions());
     if (viewsOfProbe(technique_) > 1) fillMissingFaces(work);
     iterations_->run(viewsOfProbe(technique_) == 1 ? oneFaceEach(due_) : due_, shown_, levels_, work);
     work.counters.probeBytes += iterations_->bytes();
+    device_.fault.changeMaps(*maps_, due_, nears_);
   } else if (isCaptured()) {
     work.times.captureMs.resize(static_cast<std::size_t>(technique_.bounces), 0.0);
   }

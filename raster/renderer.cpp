@@ -49,7 +49,7 @@ struct RasterSequence::Impl {
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx, int heightPx,
                            int samplesPerAxis)
-    : device(device_), technique(technique_), layout(technique_) {
+    : device(device_), technique(device_.fault.techniqueOf(technique_)), layout(technique_) {
   checkLookup(technique.lookup);
   refreshPolicy(technique.refresh);  // refuses a bad one
   fresnelLaw(technique.fresnel);
@@ -79,7 +79,10 @@ FrameStats RasterSequence::Impl::renderFrame(const Snapshot& sceneSnapshot, Fram
   device.context.check("rendering a frame");
 
   captures->endFrame();
-  return {.counters = work.counters, .faceAgeFrames = captures->faceAges(), .coats = coatSources(technique, snapshot)};
+  return {.counters = work.counters,
+          .faceAgeFrames = captures->faceAges(),
+          .coats = coatSources(technique, snapshot),
+          .mirrors = mirrorSources(technique, snapshot)};
 }
 
 std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {

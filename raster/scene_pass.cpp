@@ -96,7 +96,9 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownPr
                      FacePart shownPart, LookupRecords* records) {
   beginPass(pass, target);
   const float share = probes.isCapture() ? technique_.captureLod : 1.0f;
-  const Draws visible = visibleDraws(pass, probes.hidden, shownPart);
+  Draws visible = visibleDraws(pass, probes.hidden, shownPart);
+  if (const std::size_t repeated = device_.fault.repeatedDraws(visible.size()); repeated > 0)
+    visible.insert(visible.begin(), repeated, visible.front());
   const auto firstBlended = std::ranges::find_if(visible, [](const SurfaceDraw* draw) { return draw->isBlended(); });
   const int rows = rowsOf(shownPart, target.heightPx);
   if (shownPart != FacePart::whole) {
@@ -148,6 +150,7 @@ CaptureLookups ScenePass::lookupsOf(std::size_t pass, const ShownProbes& probes,
 
 // The surfaces that a pass draws, in order.
 ScenePass::Draws ScenePass::visibleDraws(std::size_t pass, int hiddenProbe, FacePart part) const {
+  hiddenProbe = device_.fault.hiddenProbe(hiddenProbe, snapshot_->probes.size());
   Draws visible;
   for (const SurfaceDraw& draw : draws_.all()) {
     const int probe = snapshot_->instances[draw.instance].probe;
