@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <glm/geometric.hpp>
 
 namespace pb {
 namespace {
@@ -18,23 +17,6 @@ int mode(const std::vector<int>& values) {
   const auto count = [&](int value) { return std::ranges::count(values, value); };
   return *std::ranges::max_element(values, {}, count);
 }
-
-// Sums over the pixels of one material; the order of pixels is fixed.
-struct Sums {
-  std::int64_t pixels = 0;
-  double squares = 0, relativeSquares = 0, differences = 0, flip = 0;
-
-  void add(const glm::dvec3& reference, const glm::dvec3& test, float flipValue) {
-    const glm::dvec3 d = test - reference;
-    const glm::dvec3 squared = d * d;
-    const glm::dvec3 relative = squared / (reference * reference + 0.01);
-    ++pixels;
-    squares += squared.x + squared.y + squared.z;
-    relativeSquares += relative.x + relative.y + relative.z;
-    differences += d.x + d.y + d.z;
-    flip += static_cast<double>(flipValue);
-  }
-};
 
 }  // namespace
 
@@ -56,27 +38,18 @@ std::vector<MaterialError> computeMaterialErrors(const Scene& scene, const Grid<
                                                  const Image& test, const Plane& flipHdrMap) {
   assert(materials.size() == reference.size() && test.size() == reference.size());
   assert(flipHdrMap.size() == reference.size());
-  std::vector<Sums> sums(scene.materials.size() + 1);  // the environment last
+  std::vector<RegionSums> sums(scene.materials.size() + 1);  // the environment last
   for (std::size_t i = 0; i < reference.size(); ++i) {
     const std::size_t entry =
         materials[i] == kEnvironment ? scene.materials.size() : static_cast<std::size_t>(materials[i]);
-    sums[entry].add(glm::dvec3(reference[i]), glm::dvec3(test[i]), flipHdrMap[i]);
+    sums[entry].add(reference[i], test[i], flipHdrMap[i]);
   }
   double total = 0;
-  for (const Sums& s : sums) total += s.squares;
+  for (const RegionSums& s : sums) total += s.squares();
   std::vector<MaterialError> errors;
-  for (std::size_t m = 0; m < sums.size(); ++m) {
-    const Sums& s = sums[m];
-    if (s.pixels == 0) continue;
-    const double values = 3.0 * static_cast<double>(s.pixels);
-    errors.push_back({.material = m < scene.materials.size() ? scene.materials[m].name : "environment",
-                      .pixels = s.pixels,
-                      .mse = s.squares / values,
-                      .relmse = s.relativeSquares / values,
-                      .bias = s.differences / values,
-                      .flipHdr = s.flip / static_cast<double>(s.pixels),
-                      .share = total > 0 ? s.squares / total : 0.0});
-  }
+  for (std::size_t m = 0; m < sums.size(); ++m)
+    if (sums[m].pixels() > 0)
+      errors.push_back({sums[m].errors(total), m < scene.materials.size() ? scene.materials[m].name : "environment"});
   return errors;
 }
 

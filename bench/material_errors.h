@@ -1,24 +1,18 @@
 // Where an image's error lies, by material.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "bench/region_errors.h"
 #include "scenes/image.h"
 #include "scenes/snapshot.h"
 
 namespace pb {
 
 // Errors of the pixels that show a material.
-struct MaterialError {
+struct MaterialError : RegionErrors {
   std::string material;  // its name, "environment" where no object is seen
-  std::int64_t pixels = 0;
-  double mse = 0;      // mean over the pixels and channels
-  double relmse = 0;   // likewise, of (test - reference)^2 / (reference^2 + 0.01)
-  double bias = 0;     // mean of test - reference
-  double flipHdr = 0;  // mean of the whole image's map
-  double share = 0;    // of the image's sum of squared errors, 0 to 1
 
   friend bool operator==(const MaterialError&, const MaterialError&) = default;
 };

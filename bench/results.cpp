@@ -68,34 +68,61 @@ struct Region {
 };
 
 constexpr Region kRegions[] = {
-    {"metrics", "whole", ""},
-    {"mask_metrics", "mask", ""},
-    {"floor", "floor", ""},
-    {"mask_floor", "mask_floor", ""},
-    {"unbiased", "unbiased", ""},
-    {"cost", "cost", ""},
-    {"reported_cost", "reported_cost", ""},
-    {"counters", "counter", ""},
-    {"coats_of_probes", "probe", "coats"},
+    {"metrics", "whole", ""},     {"mask_metrics", "mask", ""},
+    {"floor", "floor", ""},       {"mask_floor", "mask_floor", ""},
+    {"unbiased", "unbiased", ""}, {"flicker", "flicker", ""},
+    {"cost", "cost", ""},         {"reported_cost", "reported_cost", ""},
+    {"counters", "counter", ""},  {"coats_of_probes", "probe", "coats"},
 };
+
+// Entries of an array, each a region of its own, named after the entry's number (from 1 on) or its `nameKey`.
+void appendEntries(const std::string& prefix, const std::string& region, const char* nameKey, const Json& entries,
+                   std::string& csv) {
+  int number = 0;
+  for (Json entry : entries) {
+    ++number;
+    const std::string name = nameKey == nullptr ? std::to_string(number) : entry.at(nameKey).get<std::string>();
+    if (nameKey != nullptr) entry.erase(nameKey);
+    appendRows(fmt::format("{}{},", prefix, csvField(region + " " + name)), "", entry, csv);
+  }
+}
+
+void appendMatched(const std::string& prefix, const Json& matched, std::string& csv) {
+  constexpr Region kMatchedRegions[] = {{"metrics", "matched", ""},
+                                        {"mask_metrics", "matched_mask", ""},
+                                        {"floor", "matched_floor", ""},
+                                        {"mask_floor", "matched_mask_floor", ""}};
+  appendRows(prefix + "matched,", "depth", matched.at("depth"), csv);
+  for (const Region& region : kMatchedRegions)
+    if (const Json& values = matched.at(region.jsonKey); !values.is_null())
+      appendRows(fmt::format("{}{},", prefix, region.name), "", values, csv);
+}
+
+void appendIntervals(const std::string& prefix, const char* region, const MetricIntervals& intervals,
+                     std::string& csv) {
+  for (const auto& [metric, interval] : intervals)
+    appendRows(fmt::format("{}{},", prefix, region), metric,
+               {{"low", encodeNumber(interval.low)}, {"high", encodeNumber(interval.high)}}, csv);
+}
 
 void appendCell(const CellResult& cell, const std::vector<std::string>& axes, std::string& csv) {
   std::string prefix = fmt::format("{},{},{},", csvField(cell.scene), csvField(cell.camera), cell.frame);
   for (const std::string& axis : axes) prefix += csvField(axisValue(cell, axis)) + ',';
   const Json json = cellToJson(cell);
   for (const Region& region : kRegions) {
-    const Json values = json.value(region.jsonKey, Json());  // reported_cost is there for external techniques only
+    const Json values = json.value(region.jsonKey, Json());  // null where a cell doesn't have it
     if (!values.is_null()) appendRows(fmt::format("{}{},", prefix, region.name), region.metric, values, csv);
   }
   for (std::size_t probe = 0; probe < cell.faceAgeFrames.size(); ++probe)
     if (const std::optional<AgeSummary> ages = summaryOf({cell.faceAgeFrames[probe]}))
       appendRows(prefix + "probe,", fmt::format("face_age_frames.{}", probe),
                  {{"mean", ages->mean}, {"max", ages->largest}}, csv);
-  for (Json entry : json.at("materials")) {
-    const std::string region = csvField("material " + entry.at("material").get<std::string>());
-    entry.erase("material");
-    appendRows(fmt::format("{}{},", prefix, region), "", entry, csv);
-  }
+  appendIntervals(prefix, "interval", cell.intervals, csv);
+  appendIntervals(prefix, "mask_interval", cell.maskIntervals, csv);
+  if (cell.matched) appendMatched(prefix, json.at("matched"), csv);
+  appendEntries(prefix, "material", "material", json.at("materials"), csv);
+  appendEntries(prefix, "object", "object", json.value("objects", Json::array()), csv);
+  appendEntries(prefix, "cluster", nullptr, json.value("clusters", Json::array()), csv);
 }
 
 // relMSE of the reference's floor.

@@ -10,9 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "bench/attribution.h"
 #include "bench/cell_pictures.h"
+#include "bench/clusters.h"
 #include "bench/material_errors.h"
 #include "bench/metrics/metrics.h"
+#include "bench/object_errors.h"
 #include "bench/tolerance.h"
 
 namespace pb {
@@ -48,11 +51,43 @@ using AxisValues = std::vector<std::pair<std::string, std::string>>;
 // Some metrics by their keys (see metricTable()).
 using MetricValues = std::vector<std::pair<std::string, double>>;
 
+// Two-sided, of a metric.
+struct Interval {
+  double low = 0, high = 0;
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
+using MetricIntervals = std::vector<std::pair<std::string, Interval>>;
+
+// A cell against the truth that has as many bounces as the technique: what is left is not for want of bounces.
+struct MatchedErrors {
+  int depth = 0;           // specular hits after which that truth shows the environment: see bench/bounce_depth.h
+  bool converged = false;  // nothing is missing at this depth: it is the converged truth
+  Metrics metrics;         // whole image
+  std::optional<Metrics> maskMetrics;
+  MetricValues floor, maskFloor;
+};
+
+// Mean over pixels and channels of |(I_f - I_e) - (R_f - R_e)| for frame f and the measured frame e before it: change
+// that only one of the two renderers shows.
+struct Flicker {
+  double whole = 0;
+  std::optional<double> mask{};  // over the pixels of reflective and refractive objects in either frame
+
+  friend bool operator==(const Flicker&, const Flicker&) = default;
+};
+
+// Of the single frames of all repetitions, milliseconds.
+struct CostPeaks {
+  double p50 = 0, p95 = 0, p99 = 0, worst = 0;
+  friend bool operator==(const CostPeaks&, const CostPeaks&) = default;
+};
+
 struct CostResult {
   int repetitions = 0;
   double frameMs = 0, frameMsLow = 0, frameMsHigh = 0;  // median over repetitions and its 95 % interval
   double plainMs = 0;                                   // plain frame, same scene and size, interleaved
   double ratio = 0, ratioLow = 0, ratioHigh = 0;        // frame / plain, median of the repetitions' own ratios
+  std::vector<double> ratios;                           // of the repetitions, in their order; older results have none
   std::vector<double> captureMs;                        // by bounce iteration, instrumented run
   double shadowMs = 0;                                  // shadow maps, instrumented run
   double prefilterMs = 0;                               // all bounce iterations, instrumented run
@@ -60,6 +95,7 @@ struct CostResult {
   double rendersPerFrame = 0;                           // cost model: 1 + B * scheduled faces, mean over the frames
   double measuredRendersPerFrame = 0;                   // 1 + faces captured, mean over the same frames
   std::string rendersFormula;                           // "6*N*B+1 = 31" or "1+B*faces = 4"
+  std::optional<CostPeaks> peaks;                       // absent in results from before they were recorded
 };
 
 // Frame times as an external program states them: its own clock, its own idea of a frame.
@@ -94,6 +130,8 @@ struct CellResult {
   // What the reference's own noise adds to "mse" and "relmse" (and to other metrics whose floor is known).
   MetricValues floor, maskFloor;
   MetricValues unbiased;                     // "mse": mean((I-A)(I-B)), whole image
+  MetricIntervals intervals, maskIntervals;  // 95 %, of some metrics, from the reference's noise
+  std::optional<MatchedErrors> matched;      // absent where the technique's number of bounces is not known
   std::optional<CostResult> cost;            // of the technique on this scene; the same for all its frames
   std::optional<ReportedCost> reportedCost;  // of external techniques only, which have no `cost`
   // FrameCounters of this frame: "faces_captured", "draws", "triangles", "fragments", "probe_bytes", "texels_filtered";
@@ -103,6 +141,10 @@ struct CellResult {
   std::vector<int> coatsOfProbes;       // by probe: instances whose coat it serves, without one of their own
   std::vector<MaterialError> materials;
   CellPictures pictures;
+  std::vector<ObjectError> objects;
+  std::vector<ErrorCluster> clusters;  // the largest first
+  std::optional<Flicker> flicker;      // absent at a sequence's first measured frame
+  MetricValues integrity;              // of the probes' maps, at a sequence's last measured frame: bench/integrity.h
 
   // "scene=... camera=... frame=.. resolution=64 ...": identifies the cell in a run and in --only.
   std::string key() const;
@@ -131,6 +173,9 @@ struct Results {
   Provenance provenance;
   Tolerances tolerance;  // of the suite
   std::vector<CellResult> cells;
+  Tolerances warnTolerance;              // of the suite: beyond these a change is reported
+  SceneTolerances sceneTolerances;       // of its scenes that have their own
+  std::vector<Attribution> attribution;  // of the cells that the suite asks it for
 };
 
 // JSON text with stable key order and shortest round-trip numbers, one cell a line; reading checks the whole document
@@ -147,7 +192,8 @@ std::string toJson(const CellResult& cell);
 CellResult cellFromJson(const std::string& text, const std::string& place);
 
 // One tidy row per cell and value: scene,camera,frame,<axes>,region,metric,value (region: whole, mask, floor,
-// mask_floor, unbiased, cost, counter, material NAME). Undefined values are empty, infinity is "inf".
+// mask_floor, unbiased, matched, matched_mask, cost, counter, material NAME, ...: docs/results.md). Undefined values
+// are empty, infinity is "inf".
 std::string toCsv(const Results& results);
 
 }  // namespace pb

@@ -15,16 +15,14 @@ namespace pb {
 Json provenanceToJson(const Provenance& provenance);
 Provenance provenanceFromJson(const Json& json);
 
-Json tolerancesToJson(const Tolerances& tolerances);
-Tolerances tolerancesFromJson(const Json& json);
-
 Json axisValuesToJson(const AxisValues& values);
 AxisValues axisValuesFromJson(const Json& json);
 
 Json countersToJson(const std::vector<std::pair<std::string, std::int64_t>>& counters);
 std::vector<std::pair<std::string, std::int64_t>> countersFromJson(const Json& json);
 
-// The cell as it stands in results.json.
+// The cell as it stands in results.json, and back from JSON that the schema has accepted.
 Json cellToJson(const CellResult& cell);
+CellResult cellFromJson(const Json& json);
 
 }  // namespace pb

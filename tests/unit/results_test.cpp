@@ -63,6 +63,20 @@ TEST(Results, JsonRoundTrip_KeepsEveryMember) {
   EXPECT_EQ(a.cost->shadowMs, b.cost->shadowMs);
   EXPECT_EQ(a.cost->prefilterMs, b.cost->prefilterMs);
   EXPECT_EQ(a.cost->rendersFormula, b.cost->rendersFormula);
+  EXPECT_EQ(a.cost->peaks, b.cost->peaks);
+  EXPECT_EQ(a.intervals, b.intervals);
+  EXPECT_EQ(a.maskIntervals, b.maskIntervals);
+  EXPECT_EQ(a.matched->depth, b.matched->depth);
+  EXPECT_EQ(a.matched->converged, b.matched->converged);
+  EXPECT_EQ(a.matched->metrics.sums.mse, b.matched->metrics.sums.mse);
+  EXPECT_EQ(a.matched->maskMetrics->flipHdr->mean, b.matched->maskMetrics->flipHdr->mean);
+  EXPECT_EQ(a.matched->floor, b.matched->floor);
+  EXPECT_EQ(a.matched->maskFloor, b.matched->maskFloor);
+  EXPECT_EQ(a.materials, b.materials);
+  EXPECT_EQ(a.objects, b.objects);
+  EXPECT_EQ(a.clusters, b.clusters);
+  EXPECT_EQ(a.flicker, std::nullopt);
+  EXPECT_EQ(after.cells[1].flicker, before.cells[1].flicker);
   const CellResult& bare = after.cells.back();
   EXPECT_FALSE(bare.maskMetrics || bare.cost || bare.metrics.ssim || bare.metrics.msSsim || bare.metrics.flipHdr);
   EXPECT_EQ(bare.metrics.sums.psnr, std::numeric_limits<double>::infinity());
@@ -90,6 +104,21 @@ TEST(Results, FromBeforeCoatsWereCounted_AreRead) {
   Json document = Json::parse(toJson(samples::makeResults()));
   for (Json& cell : document["cells"]) cell.erase("coats_of_probes");
   EXPECT_TRUE(resultsFromJson(document.dump(), "memory").cells[0].coatsOfProbes.empty());
+}
+
+// The parts that came after version 1 was published; its files stay readable.
+TEST(Results, WithoutTheirOptionalParts_AreRead) {
+  Json document = Json::parse(toJson(samples::makeResults()));
+  for (Json& cell : document["cells"]) {
+    for (const char* part :
+         {"materials", "intervals", "mask_intervals", "matched", "objects", "clusters", "flicker", "coats_of_probes"})
+      cell.erase(part);
+    if (!cell["cost"].is_null()) cell["cost"].erase("peaks");
+  }
+  const CellResult cell = resultsFromJson(document.dump(), "memory").cells[1];
+  EXPECT_TRUE(cell.materials.empty() && cell.intervals.empty() && cell.maskIntervals.empty() && cell.objects.empty() &&
+              cell.clusters.empty());
+  EXPECT_FALSE(cell.matched || cell.flicker || cell.cost->peaks);
 }
 
 TEST(Results, ExtremeDoubles_RoundTripExactly) {
@@ -223,6 +252,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Mutation{"/cells/2/mask_metrics", "{}", "at /cells/2/mask_metrics: "},  //
                     Mutation{"/cells/3/cost/ratio", "-1", "at /cells/3/cost/ratio: "},      //
                     Mutation{"/cells/3/cost/capture_ms/0", "\"fast\"", "at /cells/3/cost/capture_ms/0: "},
+                    Mutation{"/cells/3/cost/peaks/p99", nullptr, "at /cells/3/cost/peaks: "},
+                    Mutation{"/cells/3/matched/depth", "0", "at /cells/3/matched/depth: "},
+                    Mutation{"/cells/3/matched/metrics/mse", nullptr, "at /cells/3/matched/metrics: "},
+                    Mutation{"/cells/3/intervals/ssim", "[1, 2, 3]", "at /cells/3/intervals/ssim: "},
+                    Mutation{"/cells/3/objects/0/share", "1.5", "at /cells/3/objects/0/share: "},
+                    Mutation{"/cells/3/objects/0/probe", "-1", "at /cells/3/objects/0/probe: "},
+                    Mutation{"/cells/3/clusters/1/x", "null", "at /cells/3/clusters/1/x: "},
+                    Mutation{"/cells/3/flicker/whole", "-1", "at /cells/3/flicker/whole: "},
                     Mutation{"/cells/3/counters/draws", "1.5", "at /cells/3/counters/draws: "},  //
                     Mutation{"/cells/3/face_age_frames", "0", "at /cells/3/face_age_frames: "},
                     Mutation{"/cells/3/face_age_frames/0", "[0, 0, 0]", "at /cells/3/face_age_frames/0: "}));
@@ -270,6 +307,16 @@ TEST(Csv, HasOneRowPerCellAndValue) {
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,face_age_frames.1.max,5\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,face_age_frames.1.mean,3.0\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,probe,coats.0,3\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,cost,peaks.p95,18.0\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,matched,depth,2\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,matched,flip_hdr.mean,0.1\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,matched_mask,flip_hdr.mean,0.4\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,matched_floor,relmse,1e-07\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,interval,ssim.low,0.5\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,material chrome,share,0.75\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,object ball,probe_distance,0.5\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,0,64,every-frame,1,cluster 2,share,0.125\n"));
+  EXPECT_THAT(csv, HasSubstr("builtin:a,main,1,64,every-frame,1,flicker,whole,"));
   EXPECT_THAT(csv, HasSubstr("builtin:b,main,0,64,every-frame,1,whole,psnr,inf\n"));
   EXPECT_THAT(csv, HasSubstr("builtin:b,main,0,64,every-frame,1,whole,ssim,\n"));
   EXPECT_THAT(csv, Not(HasSubstr("builtin:b,main,0,64,every-frame,1,mask")));

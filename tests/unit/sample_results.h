@@ -40,6 +40,7 @@ inline CostResult makeCost(double ratio) {
   cost.rendersPerFrame = 13;
   cost.measuredRendersPerFrame = 13;
   cost.rendersFormula = "6*N*B+1 = 13";
+  cost.peaks = CostPeaks{cost.frameMs, 1.5 * cost.frameMs, 1.75 * cost.frameMs, 2 * cost.frameMs};
   return cost;
 }
 
@@ -59,6 +60,20 @@ inline CellResult makeCell(const std::string& scene, int frame, const std::strin
   cell.faceAgeFrames = {{0, 0, 0, 0, 0, 0}, {5, 0, 2, -1, 5, 3}};
   cell.coatsOfProbes = {3, 0};
   return cell;
+}
+
+inline MatchedErrors makeMatched(double error) {
+  return {.depth = 2,
+          .converged = false,
+          .metrics = makeMetrics(error / 2),
+          .maskMetrics = makeMetrics(2 * error),
+          .floor = {{"relmse", 1e-7}},
+          .maskFloor = {{"relmse", 2e-7}}};
+}
+
+inline std::vector<ObjectError> makeObjects() {
+  return {{{120, 0.02, 0.03, -0.01, 0.1, 0.75}, "ball", "chrome", 1, 0.5, 0.25},
+          {{1000, 0.002, 0.003, 0.001, 0.01, 0.25}, "environment", "", std::nullopt, std::nullopt, 0.0}};
 }
 
 inline Provenance makeProvenance() {
@@ -95,7 +110,15 @@ inline Results makeResults() {
       const double ratio = refresh == std::string("static") ? 1.0 / 0.9 : 3.0;
       for (int frame = 0; frame < 2; ++frame) {
         results.cells.push_back(makeCell("builtin:a", frame, resolution, refresh, error));
-        results.cells.back().cost = makeCost(ratio);
+        CellResult& cell = results.cells.back();
+        cell.cost = makeCost(ratio);
+        cell.matched = makeMatched(error);
+        cell.intervals = {{"flip_hdr", {1.9 * error, 2.1 * error}}, {"ssim", {0.5, 2.0 / 3.0}}};
+        cell.maskIntervals = {{"flip_hdr", {7.9 * error, 8.1 * error}}};
+        cell.materials = {{{120, 0.02, 0.03, -0.01, 0.1, 0.75}, "chrome"}};
+        cell.objects = makeObjects();
+        cell.clusters = {{10, 20, 8, 4, 30, 0.5, "ball"}, {0, 0, 1, 1, 1, 0.125, "environment"}};
+        if (frame > 0) cell.flicker = Flicker{error / 5, error / 3};
         error *= 0.9;
       }
     }
