@@ -33,7 +33,7 @@ struct Attribution {
   std::string scene, camera;
   int frame = 0;
   std::vector<std::pair<std::string, std::string>> technique;  // as the cell's
-  int depth = 0;                                               // specular hits of the truncated truth
+  int depth = 0;                                               // specular hits of the truncated truth, 0: all
   std::vector<AttributionStep> steps;                          // in the order of the chain
   std::vector<ObjectAttribution> objects;                      // by instance of the scene, those in sight
 

@@ -18,9 +18,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMarker = "run.json";
 constexpr const char* kJournal = "journal.jsonl";
+constexpr const char* kAttributionJournal = "attribution.jsonl";
 // What a run (and, for report.csv, `probebench report -o`) writes, and what it removes of an earlier one; nothing else
 // in the folder is touched.
-constexpr const char* kFiles[] = {kJournal, "results.json", "results.csv", "benchmark.json", "report.md", "report.csv"};
+constexpr const char* kFiles[] = {kJournal,         kAttributionJournal, "results.json", "results.csv",
+                                  "benchmark.json", "report.md",         "report.csv"};
 constexpr const char* kImages = "images";
 
 void makeFolder(const fs::path& folder) {
@@ -55,6 +57,22 @@ void writeMarker(const fs::path& folder, const RunIdentity& identity) {
   writeFileAtomically((folder / kMarker).string(), marker.dump(2) + "\n");
 }
 
+// Calls `read` with each line of a journal and where it stands.
+template <class Read>
+void readLines(const std::string& path, const Read& read) {
+  if (!fs::exists(path)) return;
+  std::istringstream lines(readFile(path));
+  std::string complete;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    // A kill may have torn the last line: it has no end, and what it was to hold is measured again.
+    if (lines.eof()) break;
+    read(line, fmt::format("{}:{}", path, ++number));
+    complete += line + '\n';
+  }
+  writeFileAtomically(path, complete);
+}
+
 }  // namespace
 
 RunDirectory::RunDirectory(fs::path folder, const RunIdentity& identity, bool resume) : folder_(std::move(folder)) {
@@ -72,7 +90,7 @@ RunDirectory::RunDirectory(fs::path folder, const RunIdentity& identity, bool re
   if (earlier && !resume) removeEarlierRun();
   writeMarker(folder_, identity);
   makeFolder(imagesFolder());
-  if (resume) readJournal();
+  if (resume) readJournals();
 }
 
 void RunDirectory::removeEarlierRun() const {
@@ -85,26 +103,23 @@ void RunDirectory::removeEarlierRun() const {
   if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / kImages).string(), failure.message());
 }
 
-void RunDirectory::readJournal() {
-  const std::string path = (folder_ / kJournal).string();
-  if (!fs::exists(path)) return;
-  std::istringstream lines(readFile(path));
-  std::string complete;
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    // A kill may have torn the last line: it has no end, and its cell is measured again.
-    if (lines.eof()) break;
-    finished_.push_back(cellFromJson(line, fmt::format("{}:{}", path, ++number)));
-    complete += line + '\n';
-  }
-  writeFileAtomically(path, complete);
+void RunDirectory::readJournals() {
+  readLines((folder_ / kJournal).string(),
+            [&](const std::string& line, const std::string& place) { finished_.push_back(cellFromJson(line, place)); });
+  readLines((folder_ / kAttributionJournal).string(), [&](const std::string& line, const std::string& place) {
+    finishedAttributions_.push_back(attributionFromJson(line, place));
+  });
 }
 
-void RunDirectory::append(const CellResult& cell) {
+void RunDirectory::append(const CellResult& cell) { appendLine(kJournal, toJson(cell)); }
+
+void RunDirectory::append(const Attribution& attribution) { appendLine(kAttributionJournal, toJson(attribution)); }
+
+void RunDirectory::appendLine(const char* name, const std::string& line) {
   const std::lock_guard lock(journalMutex_);
-  const std::string path = (folder_ / kJournal).string();
+  const std::string path = (folder_ / name).string();
   std::ofstream journal(path, std::ios::app | std::ios::binary);
-  journal << toJson(cell) << '\n' << std::flush;
+  journal << line << '\n' << std::flush;
   if (!journal) throwEnvironmentError("'{}' can't be written: is the disk full or the folder read-only?", path);
 }
 

@@ -1,7 +1,8 @@
 // The folder of a run: what may be written there, and the journal that lets a killed run go on.
 //
 // run.json marks a folder as made by `probebench run` and says for which suite; journal.jsonl holds one finished cell a
-// line. A folder that is not empty and has no run.json, or one of another suite, is never touched.
+// line, attribution.jsonl one attribution. A folder that is not empty and has no run.json, or one of another suite, is
+// never touched.
 #pragma once
 
 #include <filesystem>
@@ -30,18 +31,24 @@ class RunDirectory {
   // Cells that an earlier, killed run has finished; empty without `resume`.
   const std::vector<CellResult>& finishedCells() const { return finished_; }
 
-  // Appends a finished cell to the journal. From any thread.
+  // Attributions likewise.
+  const std::vector<Attribution>& finishedAttributions() const { return finishedAttributions_; }
+
+  // Appends a finished cell or attribution to its journal. From any thread.
   void append(const CellResult& cell);
+  void append(const Attribution& attribution);
 
   // Writes benchmark.json (unless empty), results.csv, report.md and, last, results.json: a run with it is complete.
   void finish(const Results& results, const std::string& benchmarkJson);
 
  private:
   void removeEarlierRun() const;
-  void readJournal();
+  void readJournals();
+  void appendLine(const char* name, const std::string& line);
 
   std::filesystem::path folder_;
   std::vector<CellResult> finished_;
+  std::vector<Attribution> finishedAttributions_;
   std::mutex journalMutex_;
 };
 

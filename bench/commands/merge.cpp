@@ -73,6 +73,7 @@ int merge(const MergeOptions& options) {
         throwInputError("cell '{}' of '{}' stands in another run too", cell.key(), *run);
       merged.cells.push_back(cell);
     }
+    merged.attribution.insert(merged.attribution.end(), part.attribution.begin(), part.attribution.end());
     merged.provenance.sceneHashes.insert(part.provenance.sceneHashes.begin(), part.provenance.sceneHashes.end());
   }
   RunDirectory directory(options.output, {merged.provenance.suiteName, "merged"}, false);

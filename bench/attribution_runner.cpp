@@ -1,0 +1,316 @@
+#include "bench/attribution_runner.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <regex>
+
+#include "bench/attribution_objects.h"
+#include "bench/attribution_steps.h"
+#include "bench/axes.h"
+#include "bench/interrupt.h"
+#include "bench/oracle.h"
+#include "bench/truth.h"
+#include "raster/lookup.h"
+#include "scenes/error.h"
+#include "scenes/image_io.h"
+
+namespace pb {
+namespace {
+
+struct Job {
+  const PlannedSequence* sequence;
+  const CellResult* cell;
+};
+
+std::size_t differingAxes(const Technique& a, const Technique& b) {
+  const AxisValues valuesA = describe(a), valuesB = describe(b);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < valuesA.size(); ++i) count += valuesA[i] != valuesB[i] ? 1 : 0;
+  return count;
+}
+
+// Of each scene the sequence that is nearest to the suite's base technique, the first of several. Shards of a run agree
+// on it: it is chosen from the whole suite.
+std::vector<PlannedSequence> baseSequences(const Suite& suite) {
+  std::vector<PlannedSequence> nearest;
+  std::size_t fewest = 0;
+  for (const PlannedSequence& sequence : makePlan(suite).sequences) {
+    if (sequence.external) continue;
+    const std::size_t axes = differingAxes(sequence.technique, suite.technique);
+    const bool isNewScene = nearest.empty() || nearest.back().scene != sequence.scene;
+    if (isNewScene)
+      nearest.push_back(sequence);
+    else if (axes < fewest)
+      nearest.back() = sequence;
+    else
+      continue;
+    fewest = axes;
+  }
+  return nearest;
+}
+
+class CellChoice {
+ public:
+  explicit CellChoice(const Suite& suite) : settings_(*suite.attribution) {
+    if (settings_.cells)
+      expression_.assign(*settings_.cells);
+    else
+      base_ = baseSequences(suite);
+  }
+
+  bool includes(const PlannedSequence& sequence, const CellResult& cell) const {
+    if (!settings_.everyFrame && cell.frame != sequence.frames.back()) return false;
+    if (settings_.cells) return std::regex_search(cell.key(), expression_);
+    return std::ranges::any_of(base_, [&](const PlannedSequence& base) {
+      return base.scene == sequence.scene && base.technique == sequence.technique && !sequence.external;
+    });
+  }
+
+ private:
+  const AttributionSettings& settings_;
+  std::regex expression_;
+  std::vector<PlannedSequence> base_;
+};
+
+MetricValues definedValues(const Metrics& metrics) {
+  MetricValues values;
+  for (const MetricInfo& metric : metricTable())
+    if (const std::optional<double> value = metric.value(metrics)) values.emplace_back(metric.key, *value);
+  return values;
+}
+
+// Everything that determines traced maps but the scene and the frame.
+std::string keyOf(const ProbeViews& views, const ReferenceSettings& settings, bool withDistances) {
+  std::string key =
+      fmt::format("depth {} spp {} distances {}", settings.depth.value_or(0), settings.spp, withDistances ? 1 : 0);
+  for (const ProbeView& probe : views.probes)
+    key += fmt::format(" | {} {} {} {} {} [{}]", probe.position.x, probe.position.y, probe.position.z, probe.zNear,
+                       probe.resolutionPx, fmt::join(probe.hidden, ","));
+  return key;
+}
+
+// Maps that were traced last, for the next cells of the same frame.
+class TracedMaps {
+ public:
+  const OracleMaps& obtain(const ProbeViews& views, const ReferenceSettings& settings, bool withDistances) {
+    std::string key = keyOf(views, settings, withDistances);
+    auto found = std::ranges::find(kept_, key, &Kept::first);
+    if (found == kept_.end()) {
+      constexpr std::size_t kMostKept = 3;  // large ones take 76 MB a probe
+      if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
+      kept_.emplace_back(std::move(key), traceMaps(views, settings, withDistances));
+    } else {
+      std::rotate(found, found + 1, kept_.end());  // the last one was used last
+    }
+    return kept_.back().second;
+  }
+  void clear() { kept_.clear(); }
+
+ private:
+  using Kept = std::pair<std::string, OracleMaps>;
+  std::vector<Kept> kept_;
+};
+
+class Attributor {
+ public:
+  explicit Attributor(const RunContext& context) : c_(context) {}
+
+  std::vector<Attribution> run(const std::vector<CellResult>& cells) {
+    for (const Attribution& done : c_.directory.finishedAttributions()) finished_.emplace(keyOfCell(done), done);
+    const std::vector<Job> jobs = chooseJobs(cells);
+    c_.progress.begin("attribution", jobs.size());
+    for (const Job& job : byFrame(jobs)) {
+      throwIfInterrupted();
+      attributeCell(job);
+      c_.progress.step();
+    }
+    c_.progress.end();
+    std::vector<Attribution> attributions;
+    for (const Job& job : jobs) attributions.push_back(finished_.at(job.cell->key()));
+    return attributions;
+  }
+
+ private:
+  // What the cells of one frame of a scene have in common.
+  struct Frame {
+    std::size_t scene;
+    int frame;
+    std::shared_ptr<const Snapshot> snapshot;
+    std::shared_ptr<const Truth> truth;
+    std::map<int, Image> truncated;  // by depth
+    Grid<int> instances;             // see instanceMap()
+  };
+
+  static std::string keyOfCell(const Attribution& attribution) {
+    CellResult cell;
+    cell.scene = attribution.scene;
+    cell.camera = attribution.camera;
+    cell.frame = attribution.frame;
+    cell.technique = attribution.technique;
+    return cell.key();
+  }
+
+  std::vector<Job> chooseJobs(const std::vector<CellResult>& cells) const {
+    std::map<std::string, const CellResult*> byKey;
+    for (const CellResult& cell : cells) byKey.emplace(cell.key(), &cell);
+    const CellChoice choice(c_.suite);
+    std::vector<Job> jobs;
+    for (const PlannedSequence& sequence : c_.plan.sequences)
+      for (const int frame : sequence.frames) {
+        const auto found = byKey.find(makeCell(c_.suite, sequence, frame).key());
+        if (found == byKey.end() || !choice.includes(sequence, *found->second)) continue;
+        if (!sequence.external && takesOracleMaps(sequence.technique))
+          jobs.push_back({&sequence, found->second});
+        else
+          c_.progress.message("no attribution, as it has no cube maps: " + found->first);
+      }
+    return jobs;
+  }
+
+  // Cells that share their truth stand together.
+  static std::vector<Job> byFrame(std::vector<Job> jobs) {
+    std::ranges::stable_sort(jobs, {}, [](const Job& job) { return std::pair(job.sequence->scene, job.cell->frame); });
+    return jobs;
+  }
+
+  std::shared_ptr<const Snapshot> snapshot(std::size_t scene, int frame) const {
+    return makeSnapshot(c_.scenes[scene], std::max(frame, 0), c_.suite.scenes[scene].camera, c_.suite.image.aspect());
+  }
+
+  std::shared_ptr<const Truth> makeTruth(const Frame& frame, const TruthSettings& settings) const {
+    Technique noProbes;
+    noProbes.probes = ProbeUse::environmentOnly;
+    const ImageSettings& image = c_.suite.image;
+    RasterSequence idRaster(c_.device, noProbes, image.widthPx, image.heightPx, image.samplesPerAxis);
+    const TruthMaker maker(c_.store, image, settings, [&](const Snapshot& s) { return idRaster.renderIds(s); });
+    std::vector<std::string> warnings;
+    auto truth = maker.make(frame.snapshot, c_.suite.scenes[frame.scene].exposure, warnings);
+    for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
+    return truth;
+  }
+
+  Frame& frameOf(const Job& job) {
+    const std::size_t scene = job.sequence->scene;
+    if (!frame_ || frame_->scene != scene || frame_->frame != job.cell->frame) {
+      maps_.clear();
+      frame_ = Frame{scene, job.cell->frame, snapshot(scene, job.cell->frame), nullptr, {}, {}};
+      frame_->truth = makeTruth(*frame_, c_.suite.reference);
+      const ImageSettings& image = c_.suite.image;
+      const ReferenceScene reference(frame_->snapshot);
+      const Grid<SampleId> ids =
+          reference.renderIds(frame_->snapshot->camera, image.widthPx, image.heightPx, image.samplesPerAxis);
+      frame_->instances = instanceMap(ids, image.samplesPerAxis);
+    }
+    return *frame_;
+  }
+
+  // Of light as the raster has it: diffuse surfaces show that of their own point.
+  TruthSettings localTruth(std::optional<int> depth) const {
+    TruthSettings settings = c_.suite.reference;
+    settings.depth = depth;
+    settings.diffuse = DiffuseTransport::local;
+    settings.diffuseDepth = std::nullopt;
+    return settings;
+  }
+
+  // Empty: that of the truth itself.
+  std::optional<int> truncation(const Job& job) const {
+    const std::optional<int> ofTruth = c_.suite.reference.depth;
+    const std::optional<MatchedErrors>& matched = job.cell->matched;
+    const int depth = matched ? matched->depth : 1 + job.sequence->technique.bounces * framesRendered(job);
+    if ((matched && matched->converged) || (ofTruth && *ofTruth <= depth)) return ofTruth;
+    return depth;
+  }
+
+  int framesRendered(const Job& job) const {
+    return job.cell->frame - c_.suite.scenes[job.sequence->scene].startFrame() + 1;
+  }
+
+  const Image& truncatedImage(Frame& frame, std::optional<int> depth) const {
+    const bool isTruth = depth == c_.suite.reference.depth && c_.suite.reference.diffuse == DiffuseTransport::local;
+    if (isTruth) return frame.truth->mean;
+    const auto [found, isNew] = frame.truncated.try_emplace(depth.value_or(0));
+    if (isNew) found->second = makeTruth(frame, localTruth(depth))->mean;
+    return found->second;
+  }
+
+  void attributeCell(const Job& job) {
+    if (finished_.contains(job.cell->key())) return;
+    Frame& frame = frameOf(job);
+    const std::optional<int> depth = truncation(job);
+    Attribution attribution{
+        job.cell->scene, job.cell->camera, job.cell->frame, job.cell->technique, depth.value_or(0), {}, {}};
+    Scores scores{frame, attribution};
+    if (c_.suite.reference.diffuse == DiffuseTransport::traced)
+      scores.add("local diffuse", truncatedImage(frame, c_.suite.reference.depth));
+    scores.add("truncated bounces", truncatedImage(frame, depth));
+    const int renders = framesRendered(job);
+    for (const RasterStep& step : rasterSteps(job.sequence->technique, renders, c_.suite.attribution->resolution)) {
+      throwIfInterrupted();
+      scores.add(step.step, step.isTraced ? renderTraced(step, frame, depth) : renderFresh(step, frame));
+    }
+    scores.add("stale", imageOf(job));
+    c_.directory.append(attribution);
+    finished_.emplace(job.cell->key(), std::move(attribution));
+  }
+
+  Image renderTraced(const RasterStep& step, const Frame& frame, std::optional<int> depth) {
+    const ProbeViews views = probeViews(step.technique, frame.snapshot, c_.suite.image.heightPx);
+    ReferenceSettings settings;
+    settings.spp = c_.suite.attribution->spp.value_or(c_.suite.reference.spp);
+    if (depth) settings.depth = std::max(*depth - 1, 1);
+    const OracleMaps& maps = maps_.obtain(views, settings, needsDistances(step.technique));
+    return renderWithMaps(c_.device, step.technique, *frame.snapshot, c_.suite.image, maps);
+  }
+
+  Image renderFresh(const RasterStep& step, const Frame& frame) const {
+    const ImageSettings& image = c_.suite.image;
+    RasterSequence sequence(c_.device, step.technique, image.widthPx, image.heightPx, image.samplesPerAxis);
+    for (int i = 0; i < step.renders; ++i) sequence.renderFrame(*frame.snapshot);
+    return sequence.readImage();
+  }
+
+  // The cell's own image: from the run's folder if it was kept there.
+  Image imageOf(const Job& job) const {
+    const std::filesystem::path kept = c_.directory.folder() / job.cell->pictures.rendered;
+    if (!job.cell->pictures.rendered.empty() && std::filesystem::exists(kept))
+      return rgbOf(readImage(kept.string()).pixels);
+    const ImageSettings& image = c_.suite.image;
+    RasterSequence sequence(c_.device, job.sequence->technique, image.widthPx, image.heightPx, image.samplesPerAxis);
+    const std::size_t scene = job.sequence->scene;
+    for (int f = c_.suite.scenes[scene].startFrame(); f <= job.cell->frame; ++f) {
+      throwIfInterrupted();
+      sequence.renderFrame(*snapshot(scene, f));
+    }
+    return sequence.readImage();
+  }
+
+  // Scores images into an attribution.
+  struct Scores {
+    const Frame& frame;
+    Attribution& attribution;
+
+    void add(const std::string& step, const Image& image) {
+      const Truth& truth = *frame.truth;
+      const MetricsResult result = truth.metrics.compare(image, truth.mask.empty() ? nullptr : &truth.mask);
+      attribution.steps.push_back(
+          {step, definedValues(result.whole), result.masked ? definedValues(*result.masked) : MetricValues()});
+      addObjects(attribution.objects, step, *frame.snapshot, frame.instances, {truth.mean, image, result.flipHdrMap});
+    }
+  };
+
+  const RunContext& c_;
+  std::map<std::string, Attribution> finished_;  // by the cell's key
+  std::optional<Frame> frame_;
+  TracedMaps maps_;
+};
+
+}  // namespace
+
+std::vector<Attribution> attribute(const RunContext& context, const std::vector<CellResult>& cells) {
+  if (!context.suite.attribution) return {};
+  return Attributor(context).run(cells);
+}
+
+}  // namespace pb

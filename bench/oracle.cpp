@@ -1,0 +1,39 @@
+#include "bench/oracle.h"
+
+#include "bench/interrupt.h"
+#include "raster/lookup.h"
+
+namespace pb {
+
+bool takesOracleMaps(const Technique& technique) {
+  return technique.probes == ProbeUse::dynamic && viewsOfProbe(technique) == 6;
+}
+
+Technique withGivenMaps(Technique technique) {
+  technique.probes = ProbeUse::given;
+  return technique;
+}
+
+OracleMaps traceMaps(const ProbeViews& views, ReferenceSettings settings, bool withDistances) {
+  settings.samplesPerAxis = 1;
+  const ReferenceScene scene(views.snapshot);
+  OracleMaps maps;
+  for (const ProbeView& view : views.probes) {
+    const Probe probe{.position = view.position, .owners = view.hidden, .zNear = view.zNear};
+    maps.faces.push_back(traceProbe(scene, probe, view.resolutionPx, settings, &interruptRequested()));
+    maps.distances.emplace_back();
+    if (withDistances) maps.distances.back() = traceProbeDistances(scene, probe, view.resolutionPx);
+  }
+  return maps;
+}
+
+Image renderWithMaps(RasterDevice& device, const Technique& given, const Snapshot& snapshot, const ImageSettings& image,
+                     const OracleMaps& maps) {
+  RasterSequence sequence(device, given, image.widthPx, image.heightPx, image.samplesPerAxis);
+  for (std::size_t probe = 0; probe < maps.faces.size(); ++probe)
+    sequence.setProbe(static_cast<int>(probe), maps.faces[probe], maps.distances[probe]);
+  sequence.renderFrame(snapshot);
+  return sequence.readImage();
+}
+
+}  // namespace pb
