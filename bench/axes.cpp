@@ -70,6 +70,9 @@ constexpr Choice<Coats> kCoats[] = {{"nearest-probe", Coats::nearestProbe},
                                     {"blended-probes", Coats::blendedProbes},
                                     {"environment", Coats::environment},
                                     {"none", Coats::none}};
+constexpr Choice<WithoutProbe> kWithoutProbe[] = {{"environment", WithoutProbe::environment},
+                                                  {"nearest-probe", WithoutProbe::nearestProbe},
+                                                  {"blended-probes", WithoutProbe::blendedProbes}};
 constexpr Choice<CapturedFaces> kCapturedFaces[] = {
     {"all", CapturedFaces::all}, {"no-top-bottom", CapturedFaces::noTopBottom}, {"top-half", CapturedFaces::topHalf}};
 constexpr Choice<Iterations> kIterations[] = {{"brute-force", Iterations::bruteForce},
@@ -82,7 +85,7 @@ constexpr Choice<ProbeFormat> kProbeFormats[] = {{"rgba16f", ProbeFormat::rgba16
                                                  {"rgba8-srgb", ProbeFormat::rgba8Srgb}};
 constexpr Choice<Storage> kStorages[] = {
     {"cube", Storage::cube}, {"dual-paraboloid", Storage::dualParaboloid}, {"octahedral", Storage::octahedral}};
-constexpr Choice<Placement> kPlacements[] = {{"stated", Placement::stated},
+constexpr Choice<Placement> kPlacements[] = {{"explicit", Placement::stated},
                                              {"origin", Placement::origin},
                                              {"box-centre", Placement::boxCentre},
                                              {"centroid", Placement::centroid}};
@@ -214,6 +217,10 @@ std::vector<Axis> makeAxisTable() {
       {"coats", "nearest-probe | blended-probes | environment | none",
        "what dielectric coats of objects without a probe of their own reflect", "nearest-probe: every engine",
        parseChoice<&Technique::coats, kCoats>, printChoice<&Technique::coats, kCoats>},
+      {"without_probe", "environment | nearest-probe | blended-probes",
+       "what mirrors and glass without a probe of their own show",
+       "nearest-probe: Unity's 'Simple', blended-probes: its 'Blend Probes'; environment: its 'Off'",
+       parseChoice<&Technique::withoutProbe, kWithoutProbe>, printChoice<&Technique::withoutProbe, kWithoutProbe>},
       {"shadow_resolution", fmt::format("powers of two from {} to {}", kMinResolution, kMaxResolution),
        "texels along the edge of a shadow map's face, in scenes that cast shadows", "every engine: 512 to 4096",
        [](std::string_view text, Technique& t) { return parseResolution(text, t.shadowResolution); },
@@ -261,8 +268,8 @@ std::vector<Axis> makeAxisTable() {
        [](const Technique& t) { return fmt::format("{:g}", t.captureFar); }},
       {"capture_lights", "on | off", "whether captures show light of lights", "engines: lights left out of reflections",
        parseChoice<&Technique::captureLights, kSwitches>, printChoice<&Technique::captureLights, kSwitches>},
-      {"placement", "stated | origin | box-centre | centroid",
-       "where probes stand; stated: where the scene says, else the centre of the box around the owner",
+      {"placement", "explicit | origin | box-centre | centroid",
+       "where probes stand; explicit: where the scene says, else the centre of the box around the owner",
        "origin: engines' scripts; box-centre: Unity's gizmo", parseChoice<&Technique::placement, kPlacements>,
        printChoice<&Technique::placement, kPlacements>},
       {"sharing", "none | distance?metres=D | count?probes=N", "which neighbours share one probe",

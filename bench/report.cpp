@@ -195,10 +195,10 @@ std::string externalText(const Section& section) {
          toMarkdown(times) + '\n';
 }
 
-// Most scenes have no coats without a probe of their own.
-bool hasCoats(const Section& section) {
-  return std::ranges::any_of(section.sequences, [](const Sequence& sequence) {
-    return meanCounter(sequence, "coats_from_probe") > 0 || meanCounter(sequence, "coats_from_environment") > 0;
+// Most scenes have no coats, and no mirrors, without a probe of their own.
+bool hasWithoutProbe(const Section& section, const std::string& what) {
+  return std::ranges::any_of(section.sequences, [&](const Sequence& sequence) {
+    return meanCounter(sequence, what + "_from_probe") > 0 || meanCounter(sequence, what + "_from_environment") > 0;
   });
 }
 
@@ -213,9 +213,13 @@ Table workTable(const Section& section) {
       counter("triangles", "triangles"),
       counter("fragments", "fragments"),
       counter("texels filtered", "texels_filtered")};
-  if (hasCoats(section)) {
+  if (hasWithoutProbe(section, "coats")) {
     quantities.push_back(counter("coats from a probe", "coats_from_probe"));
     quantities.push_back(counter("from the environment", "coats_from_environment"));
+  }
+  if (hasWithoutProbe(section, "mirrors")) {
+    quantities.push_back(counter("mirrors from another's probe", "mirrors_from_probe"));
+    quantities.push_back(counter("from the environment", "mirrors_from_environment"));
   }
   return tableOfAll(section, quantities);
 }

@@ -61,6 +61,7 @@ class TaskQueue {
 std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameStats& stats) {
   const FrameCounters& counters = stats.counters;
   const std::vector<int>& ofProbes = stats.coats.ofProbes;
+  const std::vector<int>& mirrors = stats.mirrors.ofProbes;
   return {{"faces_captured", counters.facesCaptured},
           {"draws", counters.draws},
           {"triangles", counters.triangles},
@@ -68,7 +69,9 @@ std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameStats
           {"probe_bytes", counters.probeBytes},
           {"texels_filtered", counters.texelsFiltered},
           {"coats_from_probe", std::accumulate(ofProbes.begin(), ofProbes.end(), std::int64_t{0})},
-          {"coats_from_environment", stats.coats.fromEnvironment}};
+          {"coats_from_environment", stats.coats.fromEnvironment},
+          {"mirrors_from_probe", std::accumulate(mirrors.begin(), mirrors.end(), std::int64_t{0})},
+          {"mirrors_from_environment", stats.mirrors.fromEnvironment}};
 }
 
 // Letters, digits and a few signs stay; anything else would be a surprise in a file name.

@@ -33,6 +33,27 @@ Reflection blendOfNearest(const Snapshot& snapshot, const SnapshotInstance& inst
   return {ReflectionSource::probe, order[0], order[1], second / (first + second)};
 }
 
+bool hasCoat(const Snapshot& snapshot, const SnapshotInstance& instance) {
+  return snapshot.materialOf(instance).constants.kind.x == shading::kSurfaceGlossy;
+}
+
+bool looksSomethingUp(const Snapshot& snapshot, const SnapshotInstance& instance) {
+  const float kind = snapshot.materialOf(instance).constants.kind.x;
+  return kind == shading::kSurfaceGlossy || kind == shading::kSurfaceMirror || kind == shading::kSurfaceGlass;
+}
+
+LookupSources sourcesOf(const Technique& technique, const Snapshot& snapshot,
+                        bool (*isCounted)(const Snapshot&, const SnapshotInstance&)) {
+  LookupSources sources{std::vector<int>(snapshot.probes.size(), 0), 0};
+  for (const SnapshotInstance& instance : snapshot.instances) {
+    if (instance.probe >= 0 || !isCounted(snapshot, instance)) continue;
+    const Reflection reflection = reflectionOf(technique, snapshot, instance);
+    if (reflection.source == ReflectionSource::probe) ++sources.ofProbes[static_cast<std::size_t>(reflection.probe)];
+    if (reflection.source == ReflectionSource::environment) ++sources.fromEnvironment;
+  }
+  return sources;
+}
+
 // By probe: whether a surface of a wanted material looks it up.
 std::vector<bool> probesLookedUp(const Technique& technique, const Snapshot& snapshot,
                                  bool (*isWanted)(const Material&)) {
@@ -49,14 +70,17 @@ std::vector<bool> probesLookedUp(const Technique& technique, const Snapshot& sna
 }  // namespace
 
 Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance) {
-  const bool hasCoat = snapshot.materialOf(instance).constants.kind.x == shading::kSurfaceGlossy;
-  if (instance.probe < 0 && hasCoat && technique.coats == Coats::none) return {ReflectionSource::nothing};
+  const bool isCoat = hasCoat(snapshot, instance);
+  if (instance.probe < 0 && isCoat && technique.coats == Coats::none) return {ReflectionSource::nothing};
   if (technique.probes == ProbeUse::environmentOnly) return {ReflectionSource::environment};
   if (instance.probe >= 0) return {ReflectionSource::probe, instance.probe};
-  if (hasCoat && technique.coats == Coats::nearestProbe && instance.nearestProbe >= 0)
-    return {ReflectionSource::probe, instance.nearestProbe};
-  if (hasCoat && technique.coats == Coats::blendedProbes && !snapshot.probes.empty())
-    return blendOfNearest(snapshot, instance);
+  if (!looksSomethingUp(snapshot, instance) || snapshot.probes.empty()) return {ReflectionSource::environment};
+  const bool showsNearest = isCoat ? technique.coats == Coats::nearestProbe  //
+                                   : technique.withoutProbe == WithoutProbe::nearestProbe;
+  const bool showsBlend = isCoat ? technique.coats == Coats::blendedProbes  //
+                                 : technique.withoutProbe == WithoutProbe::blendedProbes;
+  if (showsNearest && instance.nearestProbe >= 0) return {ReflectionSource::probe, instance.nearestProbe};
+  if (showsBlend) return blendOfNearest(snapshot, instance);
   return {ReflectionSource::environment};
 }
 
@@ -72,16 +96,14 @@ std::vector<bool> probesWithLevels(const Technique& technique, const Snapshot& s
   return probesLookedUp(technique, snapshot, hasRoughLobe);
 }
 
-CoatSources coatSources(const Technique& technique, const Snapshot& snapshot) {
-  CoatSources sources{std::vector<int>(snapshot.probes.size(), 0), 0};
-  for (const SnapshotInstance& instance : snapshot.instances) {
-    const bool hasCoat = snapshot.materialOf(instance).constants.kind.x == shading::kSurfaceGlossy;
-    if (instance.probe >= 0 || !hasCoat) continue;
-    const Reflection reflection = reflectionOf(technique, snapshot, instance);
-    if (reflection.source == ReflectionSource::probe) ++sources.ofProbes[static_cast<std::size_t>(reflection.probe)];
-    if (reflection.source == ReflectionSource::environment) ++sources.fromEnvironment;
-  }
-  return sources;
+LookupSources coatSources(const Technique& technique, const Snapshot& snapshot) {
+  return sourcesOf(technique, snapshot, hasCoat);
+}
+
+LookupSources mirrorSources(const Technique& technique, const Snapshot& snapshot) {
+  return sourcesOf(technique, snapshot, [](const Snapshot& s, const SnapshotInstance& instance) {
+    return looksSomethingUp(s, instance) && !hasCoat(s, instance);
+  });
 }
 
 }  // namespace pb

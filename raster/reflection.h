@@ -17,23 +17,24 @@ struct Reflection {
   float secondWeight = 0.0f;
 };
 
-// An instance's own probe; without one, coats and gloss see what the technique's `coats` says, mirrors and glass the
-// environment.
+// An instance's own probe; without one, coats and gloss see what the technique's `coats` says, mirrors and glass what
+// its `withoutProbe` says.
 //
 // Blended are the two probes nearest to the centre of the instance's bounds, at the distances a <= b, with weights in
 // the ratio of 1/a - 1/c to 1/b - 1/c, c the distance of the third one (1/c = 0 without): inverse distances, lowered so
 // that the weights of an instance that moves are continuous where its second probe becomes another one.
 Reflection reflectionOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance);
 
-// What serves the coats and gloss of instances without a probe of their own, once all probes are captured: how many
-// instances look up the cube map of each probe, and how many the environment.
-struct CoatSources {
+// What serves instances without a probe of their own, once all probes are captured: how many of them look up the cube
+// map of each probe (the nearer one, where two are blended), and how many the environment.
+struct LookupSources {
   std::vector<int> ofProbes;
   int fromEnvironment = 0;
 
-  friend bool operator==(const CoatSources&, const CoatSources&) = default;
+  friend bool operator==(const LookupSources&, const LookupSources&) = default;
 };
-CoatSources coatSources(const Technique& technique, const Snapshot& snapshot);
+LookupSources coatSources(const Technique& technique, const Snapshot& snapshot);    // of coats and gloss
+LookupSources mirrorSources(const Technique& technique, const Snapshot& snapshot);  // of mirrors and glass
 
 // The levels above level 0 that the maps of probes have: the filter's if rough lobes look one up, box-filtered ones if
 // only smooth lobes do, by Technique::mips. The same for all frames of a sequence: instances keep their materials, and

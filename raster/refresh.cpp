@@ -76,6 +76,20 @@ std::vector<std::uint64_t> instanceHashes(const Snapshot& snapshot) {
   return hashes;
 }
 
+// By instance: of which probes' maps it shows. The nearest ones of those without one of their own may become others,
+// when only the probes move.
+std::vector<std::uint64_t> shownMapHashes(const Technique& technique, const Snapshot& snapshot) {
+  std::vector<std::uint64_t> hashes;
+  for (const SnapshotInstance& instance : snapshot.instances) {
+    const Reflection reflection = reflectionOf(technique, snapshot, instance);
+    std::uint64_t& hash = hashes.emplace_back(0);
+    mixIn(hash, reflection.probe);
+    mixIn(hash, reflection.second);
+    mixIn(hash, reflection.secondWeight);
+  }
+  return hashes;
+}
+
 }  // namespace
 
 std::uint64_t instanceHash(const Snapshot& snapshot, const SnapshotInstance& instance) {
@@ -90,6 +104,7 @@ std::uint64_t instanceHash(const Snapshot& snapshot, const SnapshotInstance& ins
 ByProbeAndFace<FaceContent> faceContents(const Technique& technique, const Snapshot& snapshot) {
   const std::vector<std::uint64_t> hashes = instanceHashes(snapshot);
   const std::uint64_t common = commonHash(snapshot, hashes);
+  const std::vector<std::uint64_t> shown = shownMapHashes(technique, snapshot);
   ByProbeAndFace<FaceContent> contents(snapshot.probes.size());
   for (const ProbeFace& f : capturedFaces(technique, snapshot)) {
     FaceContent& content = at(contents, f);
@@ -100,6 +115,7 @@ ByProbeAndFace<FaceContent> faceContents(const Technique& technique, const Snaps
     for (const int instance : content.instances) {
       mixIn(content.hash, instance);
       mixIn(content.hash, hashes[static_cast<std::size_t>(instance)]);
+      mixIn(content.hash, shown[static_cast<std::size_t>(instance)]);
     }
   }
   return contents;

@@ -37,7 +37,8 @@ struct RefreshHistory {
 // What a capture of a face shows.
 struct FaceContent {
   // Of everything that the picture depends on, but for what other probes' maps show: position of the probe, the
-  // instances that the face sees, lights, environment; in scenes that cast shadows, all instances.
+  // instances that the face sees and which maps they show, lights, environment; in scenes that cast shadows, all
+  // instances.
   std::uint64_t hash = 0;
   std::vector<int> instances;  // whose bounds the captured part of the face sees, in order
 };

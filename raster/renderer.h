@@ -56,8 +56,9 @@ struct PassTimes {
 struct FrameStats {
   FrameCounters counters;
   std::vector<std::array<std::int64_t, 6>>
-      faceAgeFrames;  // per probe and face: frames since its capture (0: this frame), -1 if it is never captured
-  CoatSources coats;  // in the final image
+      faceAgeFrames;      // per probe and face: frames since its capture (0: this frame), -1 if it is never captured
+  LookupSources coats;    // of instances without a probe of their own, in the final image
+  LookupSources mirrors;  // the same of mirrors and glass
 };
 
 // A GL context with the compiled programs. Contexts of both backends may exist in one process.

@@ -16,6 +16,7 @@ enum class Dispersion { off, rgbOffset, perChannelIor };
 enum class ProbeFilter { none, boxMips, ggxPrefiltered };
 enum class GeometryTerm { smithCorrelated, one, smithK, cookTorrance };  // numbered as shading::kGeometry*
 enum class Coats { nearestProbe, blendedProbes, environment, none };
+enum class WithoutProbe { environment, nearestProbe, blendedProbes };
 enum class CapturedFaces { all, noTopBottom, topHalf };
 enum class Iterations { bruteForce, incremental };
 enum class ResolutionScale { fixed, distance };
@@ -43,8 +44,9 @@ struct Technique {
   ProbeFilter filter = ProbeFilter::ggxPrefiltered;
   GeometryTerm geometryTerm = GeometryTerm::smithCorrelated;
   Coats coats = Coats::nearestProbe;  // what dielectric coats of surfaces without a probe of their own reflect
-  int shadowResolution = 1024;        // texels along the edge of a shadow map's face, for scenes that cast shadows
-  Spec lookup{"infinite", {}};        // from a point and a direction to a texel: see raster/lookup.h
+  WithoutProbe withoutProbe = WithoutProbe::environment;  // what mirrors and glass without one of their own show
+  int shadowResolution = 1024;  // texels along the edge of a shadow map's face, for scenes that cast shadows
+  Spec lookup{"infinite", {}};  // from a point and a direction to a texel: see raster/lookup.h
   CapturedFaces faces = CapturedFaces::all;  // what is not captured shows the environment
   Iterations iterations = Iterations::bruteForce;
   ResolutionScale resolutionScale = ResolutionScale::fixed;
@@ -57,7 +59,7 @@ struct Technique {
   float captureLod = 1.0f;  // share of the triangles that captures draw, (0, 1]
   float captureFar = 0.0f;  // metres from a probe beyond which captures show the environment; 0: no such limit
   bool captureLights = true;
-  Placement placement = Placement::stated;  // where probes stand
+  Placement placement = Placement::stated;  // where probes stand; the value `explicit`
   Spec sharing{"none", {}};                 // none, distance?metres= or count?probes=
   SelfReflection selfReflection = SelfReflection::none;
   ProbeUse probes = ProbeUse::dynamic;

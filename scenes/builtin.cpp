@@ -48,7 +48,10 @@ const std::vector<BuiltinScene>& builtinScenes() {
        makeMirrorCubeScene},
       {"mirror-room", "count = mirror balls, 1 to 16, default 5",
        "Small mirror balls in a closed room: little parallax, many bounces.", makeMirrorRoomScene},
-      {"mirrors", "count = mirror balls on the ring, 1 to 64, default 5",
+      {"mirrors",
+       "count = mirror balls on the ring, 1 to 64, default 5; probes = how many of them, the first ones, have a probe "
+       "of "
+       "their own, 0 to 64, default all",
        "A ring of mirror balls that reflect each other on a checkered ground.", makeMirrorsScene},
       {"mirrors-ring", "point = 1 to add a point light, default 0",
        "Eight mirror balls on a ring under a constant sky: scene A of the CPU ray tracers' benchmark.",

@@ -1,5 +1,5 @@
-// `mirrors?count=N`: the ring of mirror balls of the peer benchmark three-cubecamera (its scene-mirrorsN.glb), so that
-// costs compare.
+// `mirrors?count=N&probes=P`: the ring of mirror balls of the peer benchmark three-cubecamera (its scene-mirrorsN.glb),
+// so that costs compare.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -78,6 +78,7 @@ shading::Sky makeSky() {
 
 Scene makeMirrorsScene(SpecReader& parameters) {
   const int count = parameters.integer("count", 1, 64, 5);
+  const int probes = parameters.integer("probes", 0, 64, 64);
   Scene scene;
   addGround(scene);
   const auto cube = finishMesh(makeBoxMesh(glm::vec3(kCubeEdge)));
@@ -101,7 +102,8 @@ Scene makeMirrorsScene(SpecReader& parameters) {
     const double angle = glm::two_pi<double>() * k / count;
     Node node;
     node.translation = glm::vec3(kRingRadius * std::sin(angle), 1.0, kRingRadius * std::cos(angle));
-    addInstance(scene, "Mirror_" + std::to_string(k), mirror, mirrorMaterial, node);
+    const int added = addInstance(scene, "Mirror_" + std::to_string(k), mirror, mirrorMaterial, node);
+    if (k >= probes) scene.nodes[static_cast<std::size_t>(added)].probe.emplace().enabled = false;
   }
   addCamera(scene, "Camera", {0.0f, 2.2f, 7.5f}, {0.0f, 0.85f, 0.0f}, glm::radians(45.0f), 0.1f);
   // Radiance of a diffuse surface: albedo * (0.25 + 0.8 max(0, n.l)).

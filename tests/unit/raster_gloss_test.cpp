@@ -471,19 +471,19 @@ TEST(Reflection, OwnProbeThenNearestProbeThenEnvironment) {
 TEST(Reflection, CoatsAreCountedByWhatServesThem) {
   const auto snapshot = snapshotOf(makeCoatedBall());
   Technique technique;
-  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{1}, 0}));
+  EXPECT_EQ(coatSources(technique, *snapshot), (LookupSources{{1}, 0}));
   technique.coats = Coats::environment;
-  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{0}, 1}));
+  EXPECT_EQ(coatSources(technique, *snapshot), (LookupSources{{0}, 1}));
   technique.coats = Coats::none;
-  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{0}, 0}));
+  EXPECT_EQ(coatSources(technique, *snapshot), (LookupSources{{0}, 0}));
   technique.coats = Coats::nearestProbe;
   technique.probes = ProbeUse::environmentOnly;
-  EXPECT_EQ(coatSources(technique, *snapshot), (CoatSources{{0}, 1}));
+  EXPECT_EQ(coatSources(technique, *snapshot), (LookupSources{{0}, 1}));
 }
 
 TEST_P(RasterGloss, FramesSayWhatServedTheirCoats) {
   RasterSequence sequence(device(), withResolution(8), 8, 8, 1);
-  EXPECT_EQ(sequence.renderFrame(*snapshotOf(makeCoatedBall())).coats, (CoatSources{{1}, 0}));
+  EXPECT_EQ(sequence.renderFrame(*snapshotOf(makeCoatedBall())).coats, (LookupSources{{1}, 0}));
 }
 
 // --- Glass
