@@ -1,0 +1,244 @@
+#include "bench/report/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "bench/tables.h"
+
+namespace pb {
+namespace {
+
+constexpr std::size_t kShownChanges = 12;
+
+// A number with what is known of its uncertainty.
+struct Measured {
+  double value = 0;
+  std::optional<Interval> interval{};
+};
+
+std::optional<Measured> errorOf(const CellResult& cell, const std::string& metric) {
+  const Metrics& metrics = cell.maskMetrics ? *cell.maskMetrics : cell.metrics;
+  const MetricIntervals& intervals = cell.maskMetrics ? cell.maskIntervals : cell.intervals;
+  const std::optional<double> value = metricValue(metrics, metric);
+  if (!value || std::isnan(*value)) return std::nullopt;
+  Measured measured{*value};
+  for (const auto& [name, interval] : intervals)
+    if (name == metric) measured.interval = interval;
+  return measured;
+}
+
+std::optional<Measured> frameMsOf(const CellResult& cell, const std::string&) {
+  if (!cell.cost) return std::nullopt;
+  return Measured{cell.cost->frameMs, Interval{cell.cost->frameMsLow, cell.cost->frameMsHigh}};
+}
+
+std::optional<Measured> ratioOf(const CellResult& cell, const std::string&) {
+  if (!cell.cost) return std::nullopt;
+  return Measured{cell.cost->ratio, Interval{cell.cost->ratioLow, cell.cost->ratioHigh}};
+}
+
+struct Quantity {
+  const char* name;
+  const char* title;
+  bool moreIsBetter;
+  std::optional<Measured> (*of)(const CellResult&, const std::string& name);
+};
+
+constexpr std::array<Quantity, 5> kQuantities = {{
+    {"flip_hdr", "FLIP-HDR", false, errorOf},
+    {"relmse", "relMSE", false, errorOf},
+    {"ssim", "SSIM", true, errorOf},
+    {"frame_ms", "frame ms", false, frameMsOf},
+    {"ratio", "x plain", false, ratioOf},
+}};
+
+constexpr std::pair<Change, const char*> kChangeNames[] = {
+    {Change::better, "better"}, {Change::worse, "worse"}, {Change::equal, "equal"}, {Change::changed, "changed"}};
+
+const char* nameOf(Change change) {
+  return std::ranges::find(kChangeNames, change, &std::pair<Change, const char*>::first)->second;
+}
+
+Change changeOf(const Measured& before, const Measured& after, bool moreIsBetter) {
+  if (before.value == after.value) return Change::equal;
+  if (!before.interval || !after.interval) return Change::changed;
+  const bool overlap = before.interval->low <= after.interval->high && after.interval->low <= before.interval->high;
+  if (overlap) return Change::equal;
+  return (after.value > before.value) == moreIsBetter ? Change::better : Change::worse;
+}
+
+std::vector<ComparedValue> compareCells(const CellResult& before, const CellResult& after) {
+  std::vector<ComparedValue> values;
+  for (const Quantity& quantity : kQuantities) {
+    const std::optional<Measured> a = quantity.of(before, quantity.name), b = quantity.of(after, quantity.name);
+    if (a && b)
+      values.push_back(
+          {quantity.name, a->value, b->value, a->interval, b->interval, changeOf(*a, *b, quantity.moreIsBetter)});
+  }
+  return values;
+}
+
+Json intervalToJson(const std::optional<Interval>& interval) {
+  return interval ? Json::array({encodeNumber(interval->low), encodeNumber(interval->high)}) : Json();
+}
+
+// --- The report
+
+// By which factor a value changed, as a distance from no change; what comes from or goes to 0 changed most.
+double sizeOf(const ComparedValue& value) {
+  if (value.before == value.after) return 0;
+  const double size = std::abs(std::log(value.after / value.before));
+  return std::isnan(size) ? std::abs(value.difference()) : size;
+}
+
+std::string signedText(double difference) {
+  return fmt::format("{}{}", difference > 0 ? "+" : "", formatSignificant(difference));
+}
+
+std::string percentText(const ComparedValue& value) {
+  const double percent = 100.0 * value.difference() / std::abs(value.before);
+  return std::isfinite(percent) ? fmt::format("{:+.1f} %", percent) : "-";
+}
+
+Table countTable(const Comparison& comparison) {
+  Table table{{{"value", Align::left}, {"better"}, {"worse"}, {"equal"}, {"changed"}, {"largest change"}}, {}};
+  for (const Quantity& quantity : kQuantities) {
+    std::map<Change, int> counts;
+    const ComparedValue* largest = nullptr;
+    for (const ComparedCell& cell : comparison.cells)
+      for (const ComparedValue& value : cell.values) {
+        if (value.name != quantity.name) continue;
+        ++counts[value.change];
+        if (!largest || sizeOf(value) > sizeOf(*largest)) largest = &value;
+      }
+    if (largest)
+      table.rows.push_back({quantity.title, std::to_string(counts[Change::better]),
+                            std::to_string(counts[Change::worse]), std::to_string(counts[Change::equal]),
+                            std::to_string(counts[Change::changed]), percentText(*largest)});
+  }
+  return table;
+}
+
+// The largest changes that are more than noise, as far as that is known.
+Table changeTable(const Comparison& comparison, const Results& after, const AxisValues& defaults) {
+  struct Row {
+    const ComparedCell* cell;
+    const ComparedValue* value;
+  };
+  std::vector<Row> rows;
+  for (const ComparedCell& cell : comparison.cells)
+    for (const ComparedValue& value : cell.values)
+      if (value.change != Change::equal) rows.push_back({&cell, &value});
+  std::ranges::stable_sort(rows, std::greater(), [](const Row& row) { return sizeOf(*row.value); });
+  if (rows.size() > kShownChanges) rows.resize(kShownChanges);
+  Table table{
+      {{"cell", Align::left}, {"value", Align::left}, {"before"}, {"after"}, {"difference"}, {""}, {"", Align::left}},
+      {}};
+  for (const Row& row : rows)
+    table.rows.push_back({shortKey(after.cells[row.cell->after].key(), defaults), row.value->name,
+                          formatSignificant(row.value->before), formatSignificant(row.value->after),
+                          signedText(row.value->difference()), percentText(*row.value), nameOf(row.value->change)});
+  return table;
+}
+
+using Circumstances = std::map<std::string, std::string>;
+
+Circumstances circumstancesOf(const Provenance& p) {
+  Circumstances all = {{"probebench", fmt::format("{} ({})", p.toolVersion, p.gitHash)},
+                       {"suite", fmt::format("{} ({})", p.suiteName, p.suiteHash)},
+                       {"CPU", fmt::format("{}, {} threads", p.cpu, p.threads)},
+                       {"GL", fmt::format("{}: {}, {}", p.glBackend, p.glRenderer, p.glVersion)}};
+  for (const auto& [name, value] : p.settings) all[name] = value;
+  for (const auto& [scene, hash] : p.sceneHashes) all["scene " + scene] = hash;
+  for (const auto& [name, version] : p.libraries) all[name] = version;
+  return all;
+}
+
+std::string circumstancesText(const Provenance& before, const Provenance& after) {
+  const Circumstances a = circumstancesOf(before), b = circumstancesOf(after);
+  Circumstances names = a;
+  names.insert(b.begin(), b.end());
+  Table table{{{"circumstance", Align::left}, {"before", Align::left}, {"after", Align::left}}, {}};
+  const auto text = [](const Circumstances& of, const std::string& name) {
+    const auto found = of.find(name);
+    return found == of.end() ? std::string("-") : found->second;
+  };
+  for (const auto& [name, value] : names)
+    if (text(a, name) != text(b, name)) table.rows.push_back({name, text(a, name), text(b, name)});
+  if (table.rows.empty()) return "Circumstances are the same.\n";
+  return "Circumstances that differ:\n\n" + toMarkdown(table);
+}
+
+}  // namespace
+
+Comparison compareRuns(const Results& before, const Results& after) {
+  std::map<std::string, std::size_t> earlier;
+  for (std::size_t i = 0; i < before.cells.size(); ++i) earlier[before.cells[i].key()] = i;
+  Comparison comparison;
+  for (std::size_t i = 0; i < after.cells.size(); ++i) {
+    const auto found = earlier.find(after.cells[i].key());
+    if (found == earlier.end()) {
+      comparison.onlyAfter.push_back(i);
+      continue;
+    }
+    comparison.cells.push_back({found->second, i, compareCells(before.cells[found->second], after.cells[i])});
+    earlier.erase(found);
+  }
+  for (const auto& [key, index] : earlier) comparison.onlyBefore.push_back(index);
+  std::ranges::sort(comparison.onlyBefore);
+  return comparison;
+}
+
+std::string makeComparisonReport(const Results& before, const Results& after, const AxisValues& defaults) {
+  const Comparison comparison = compareRuns(before, after);
+  std::string text =
+      fmt::format("# {}: before and after\n\n{} cells compared", after.provenance.suiteName, comparison.cells.size());
+  if (const std::size_t count = comparison.onlyBefore.size()) text += fmt::format(", {} only before", count);
+  if (const std::size_t count = comparison.onlyAfter.size()) text += fmt::format(", {} only after", count);
+  text += ".\n\n";
+  if (!comparison.cells.empty()) {
+    text += toMarkdown(countTable(comparison)) + '\n';
+    text +=
+        "Errors are those of the mask, where a scene has one. `equal`: the same, or 95 % intervals overlap; `changed`: "
+        "not the same, and no interval is known.\n\n";
+    const Table changes = changeTable(comparison, after, defaults);
+    if (!changes.rows.empty()) text += "What changed most:\n\n" + toMarkdown(changes) + '\n';
+  }
+  return text + circumstancesText(before.provenance, after.provenance);
+}
+
+std::string comparisonToCsv(const Results& before, const Results& after, const AxisValues& defaults) {
+  const auto quoted = [](const std::string& text) {
+    std::string result;
+    for (const char c : text) result.append(c == '"' ? 2 : 1, c);
+    return fmt::format("\"{}\"", result);
+  };
+  std::string text = "cell,value,before,after,difference,change\n";
+  for (const ComparedCell& cell : compareRuns(before, after).cells)
+    for (const ComparedValue& value : cell.values)
+      text += fmt::format("{},{},{},{},{},{}\n", quoted(shortKey(after.cells[cell.after].key(), defaults)), value.name,
+                          value.before, value.after, value.difference(), nameOf(value.change));
+  return text;
+}
+
+Json toJson(const Comparison& comparison) {
+  Json json = {{"cells", Json::array()}, {"onlyBefore", comparison.onlyBefore}, {"onlyAfter", comparison.onlyAfter}};
+  for (const ComparedCell& cell : comparison.cells) {
+    Json values = Json::object();
+    for (const ComparedValue& value : cell.values)
+      values[value.name] = {{"before", encodeNumber(value.before)},
+                            {"after", encodeNumber(value.after)},
+                            {"beforeInterval", intervalToJson(value.beforeInterval)},
+                            {"afterInterval", intervalToJson(value.afterInterval)},
+                            {"change", nameOf(value.change)}};
+    json["cells"].push_back({{"before", cell.before}, {"after", cell.after}, {"values", values}});
+  }
+  return json;
+}
+
+}  // namespace pb

@@ -1,0 +1,46 @@
+// Two runs, cell by cell: what changed, and whether by more than is known to be uncertain.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/json_document.h"
+#include "bench/results.h"
+
+namespace pb {
+
+// equal: the same, or the 95 % intervals overlap; changed: differs, and no interval is known for it.
+enum class Change { better, worse, equal, changed };
+
+struct ComparedValue {
+  std::string name;  // flip_hdr, relmse, ssim, frame_ms, ratio
+  double before = 0, after = 0;
+  std::optional<Interval> beforeInterval, afterInterval;
+  Change change = Change::equal;
+
+  double difference() const { return after - before; }
+};
+
+struct ComparedCell {
+  std::size_t before = 0, after = 0;  // indices into the runs' cells
+  std::vector<ComparedValue> values;  // those that both have; of the mask where there is one
+};
+
+struct Comparison {
+  std::vector<ComparedCell> cells;                 // of the same key, in the order of the later run
+  std::vector<std::size_t> onlyBefore, onlyAfter;  // indices into the runs' cells
+};
+
+Comparison compareRuns(const Results& before, const Results& after);
+
+// Markdown, short enough for a pull request: counts of changes, the cells that changed most, circumstances that differ.
+std::string makeComparisonReport(const Results& before, const Results& after, const AxisValues& defaults);
+
+// One row per cell and value: cell,value,before,after,difference,change.
+std::string comparisonToCsv(const Results& before, const Results& after, const AxisValues& defaults);
+
+// For the page.
+Json toJson(const Comparison& comparison);
+
+}  // namespace pb

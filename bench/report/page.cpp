@@ -1,0 +1,158 @@
+#include "bench/report/page.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include "bench/json_document.h"
+#include "bench/report/comparison.h"
+#include "bench/report/packed_picture.h"
+#include "bench/report/page_pictures.h"
+#include "bench/report/page_source.h"
+#include "scenes/error.h"
+#include "scenes/files.h"
+
+namespace pb {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of base64 in the page itself: with 2 MB for results, scripts and charts a page stays below 15 MB.
+constexpr std::size_t kMaxInlineBytes = 11'000'000;
+
+std::string escapedHtml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  return escaped;
+}
+
+// JSON may stand in a script element if nothing in it can end that.
+std::string inlineJson(const Json& json) {
+  std::string text;
+  for (const char c : printLine(json))
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  return text;
+}
+
+// Where the blobs of the page go: into it, or beside it.
+class Blobs {
+ public:
+  explicit Blobs(const fs::path& page) : folder_(page.parent_path() / (page.stem().string() + "-pictures")) {}
+
+  // Always in the page.
+  std::size_t addInline(const std::string& base64) {
+    text_ += fmt::format("<script type=\"text/plain\" id=\"blob-{}\">{}</script>\n", count_, base64);
+    return count_++;
+  }
+
+  // Returns the number of the first.
+  std::size_t addPictures(const std::vector<std::string>& blobs, bool beside) {
+    const std::size_t first = count_;
+    if (beside) makeFolder();
+    for (const std::string& blob : blobs) {
+      if (!beside) {
+        addInline(blob);
+        continue;
+      }
+      writeFileAtomically((folder_ / fmt::format("{}.js", count_)).string(),
+                          fmt::format("probebenchBlob({}, \"{}\");\n", count_, blob));
+      ++count_;
+    }
+    return first;
+  }
+
+  // Of an earlier report, with more pictures than this one may have.
+  void removeFolder() const {
+    std::error_code failure;
+    fs::remove_all(folder_, failure);
+    if (failure) throwEnvironmentError("'{}' can't be removed: {}", folder_.string(), failure.message());
+  }
+
+  std::string folderName() const { return folder_.filename().string(); }
+  const std::string& text() const { return text_; }
+
+ private:
+  void makeFolder() const {
+    std::error_code failure;
+    fs::create_directories(folder_, failure);
+    if (failure) throwEnvironmentError("can't make directory '{}': {}", folder_.string(), failure.message());
+  }
+
+  fs::path folder_;
+  std::string text_;
+  std::size_t count_ = 0;
+};
+
+std::size_t bytesOf(const std::vector<PagePictures>& runs) {
+  std::size_t bytes = 0;
+  for (const PagePictures& run : runs)
+    for (const std::string& blob : run.blobs) bytes += blob.size();
+  return bytes;
+}
+
+Json picturesToJson(const PagePictures& pictures, std::size_t firstBlob) {
+  Json json = Json::object();
+  for (const auto& [file, picture] : pictures.files) {
+    Json& entry = json[file] = {{"blob", firstBlob + picture.blob}, {"packed", picture.packed}};
+    if (!picture.packed) continue;
+    entry["width"] = picture.width;
+    entry["height"] = picture.height;
+    if (picture.base) entry["base"] = *picture.base;
+  }
+  return json;
+}
+
+std::string replaced(std::string text, const std::string& mark, const std::string& with) {
+  const std::size_t at = text.find(mark);
+  if (at == std::string::npos) throw std::logic_error("the page's template lacks " + mark);
+  return text.replace(at, mark.size(), with);
+}
+
+}  // namespace
+
+void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file) {
+  std::vector<PagePictures> pictures;
+  for (const PageRun& run : runs) pictures.push_back(packPictures(run.results.cells, run.directory));
+  const bool beside = bytesOf(pictures) > kMaxInlineBytes;
+
+  Blobs blobs(file);
+  blobs.removeFolder();
+  Json meta = {{"answer", answer}, {"beside", beside ? Json(blobs.folderName()) : Json()}, {"runs", Json::array()}};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::size_t results = blobs.addInline(base64(deflate(toJson(runs[i].results))));
+    const std::size_t firstBlob = blobs.addPictures(pictures[i].blobs, beside);
+    meta["runs"].push_back({{"name", runs[i].name},
+                            {"results", results},
+                            {"pictures", picturesToJson(pictures[i], firstBlob)},
+                            {"missing", pictures[i].missing.size()}});
+  }
+  if (runs.size() == 2) meta["comparison"] = toJson(compareRuns(runs[0].results, runs[1].results));
+
+  const std::string& suite = runs.back().results.provenance.suiteName;
+  const std::string data =
+      fmt::format("<script type=\"application/json\" id=\"meta\">{}</script>\n{}", inlineJson(meta), blobs.text());
+  const std::string page = replaced(kPageSource, "@title", escapedHtml(suite));
+  writeFileAtomically(file, replaced(page, "@data", data));
+}
+
+}  // namespace pb

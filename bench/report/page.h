@@ -1,0 +1,23 @@
+// The report as one HTML page that needs no network: results, pictures and charts of a run, or of two runs side by
+// side.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/results.h"
+
+namespace pb {
+
+struct PageRun {
+  std::string name;       // what the page calls it where there are two: "before", "after"
+  std::string directory;  // where its pictures are
+  const Results& results;
+};
+
+// Writes `file`; pictures stand in the page up to some 11 MB, beyond that in a folder beside it ("report.html" ->
+// "report-pictures/"). The last run is the page's subject, one before it what it is compared with. `answer`: lines that
+// say what was found, may be empty. Throws environment Errors.
+void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file);
+
+}  // namespace pb

@@ -1,0 +1,82 @@
+#include "bench/report/page_pictures.h"
+
+#include <tbb/parallel_for.h>
+
+#include <set>
+
+#include "bench/report/packed_picture.h"
+#include "scenes/error.h"
+#include "scenes/files.h"
+#include "scenes/image_io.h"
+
+namespace pb {
+namespace {
+
+// A file of the cells and what packing it gave.
+struct Job {
+  std::string file;
+  std::optional<std::string> base;
+  bool packed = true;
+  int width = 0, height = 0;
+  std::optional<std::string> bytes{};  // none: the file can't be read
+};
+
+// References first: the others are predicted from them.
+std::vector<Job> jobsOf(const std::vector<CellResult>& cells) {
+  std::vector<Job> jobs;
+  std::set<std::string> known;
+  const auto add = [&](Job job) {
+    if (!job.file.empty() && known.insert(job.file).second) jobs.push_back(std::move(job));
+  };
+  for (const CellResult& cell : cells) add({cell.pictures.reference, std::nullopt});
+  for (const CellResult& cell : cells) {
+    add({cell.pictures.rendered, cell.pictures.reference});
+    add({cell.pictures.flip, std::nullopt, false});
+  }
+  return jobs;
+}
+
+Image readPicture(const std::string& path) { return rgbOf(readImage(path).pixels); }
+
+void pack(Job& job, const std::string& folder) try {
+  if (!job.packed) {
+    job.bytes = readFile(folder + job.file);
+    return;
+  }
+  const Image image = readPicture(folder + job.file);
+  std::vector<std::uint16_t> base;
+  if (job.base && !job.base->empty()) base = halfPlanes(readPicture(folder + *job.base));
+  if (base.size() != 3 * image.size()) {
+    base.clear();
+    job.base.reset();
+  }
+  job.width = image.width();
+  job.height = image.height();
+  job.bytes = packPicture(halfPlanes(image), image.width(), base);
+} catch (const Error&) {  // a run whose folder was copied without its pictures still has its numbers
+  job.bytes.reset();
+}
+
+}  // namespace
+
+PagePictures packPictures(const std::vector<CellResult>& cells, const std::string& runDirectory) {
+  std::vector<Job> jobs = jobsOf(cells);
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) { pack(jobs[i], runDirectory + '/'); });
+
+  PagePictures pictures;
+  std::map<std::string, std::size_t> blobOf;  // by content: a static probe and a fresh one may show the same
+  for (Job& job : jobs) {
+    if (!job.bytes) {
+      pictures.missing.push_back(job.file);
+      continue;
+    }
+    const auto [blob, isNew] =
+        blobOf.try_emplace((job.base ? *job.base : "") + '\n' + *job.bytes, pictures.blobs.size());
+    if (isNew) pictures.blobs.push_back(base64(*job.bytes));
+    pictures.files[job.file] = {blob->second, job.packed, job.width, job.height, job.base};
+    job.bytes.reset();
+  }
+  return pictures;
+}
+
+}  // namespace pb
