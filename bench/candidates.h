@@ -22,12 +22,12 @@ struct Selection {
 
 struct Candidate {
   AxisValues technique;
-  Estimate loss;                    // smaller is better, see lossOf()
-  std::string worstScene;           // where the loss is largest
-  std::optional<Estimate> ratio;    // frame over plain frame, of the scene where it is largest
-  std::optional<Estimate> frameMs;  // likewise
-  double probeBytes = 0;            // likewise
-  bool clearOfFloor = true;         // on all scenes
+  Estimate loss;                              // smaller is better, see lossOf()
+  std::string worstScene;                     // where the loss is largest
+  std::optional<Estimate> ratio;              // frame over plain frame, of the scene where it is largest
+  std::optional<Estimate> frameMs;            // likewise
+  double probeBytes = 0;                      // likewise
+  bool clearOfFloor = true;                   // on all scenes
   std::vector<const CellResult*> worstCells;  // frames of the worst scene
 };
 
@@ -35,6 +35,7 @@ struct CandidateSet {
   std::vector<Candidate> candidates;  // measured on all scenes, in the order of the run
   std::vector<std::string> scenes;
   std::vector<VaryingAxis> axes;  // in which the candidates differ
+  AxisValues common;              // of these axes, what more than half of the candidates have
   std::size_t elsewhere = 0;      // techniques that were measured on some of the scenes only
   bool onMask = false;            // some errors are of the mask
 };
@@ -52,7 +53,8 @@ std::optional<Estimate> lossOf(const CellResult& cell, const Selection& selectio
 // that no scene shows. The cells must outlive the result.
 CandidateSet candidatesOf(const Results& results, const Selection& selection);
 
-// "resolution=128 bounces=2": the axes in which the candidates differ; "the only technique" if there are none.
-std::string techniqueText(const AxisValues& technique, const std::vector<VaryingAxis>& axes);
+// "resolution=128 bounces=2": what a candidate has of the axes in which they differ, without what is common; a preset
+// speaks for all of its settings.
+std::string techniqueText(const AxisValues& technique, const CandidateSet& set);
 
 }  // namespace pb

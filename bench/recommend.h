@@ -57,12 +57,12 @@ struct PrintSettings {
 std::string print(const Recommendation& recommendation, const RecommendRequest& request, const Results& results,
                   const PrintSettings& settings);
 
-// `probebench run ...` of these cells alone, with the suite and options of the run.
-std::string rerunCommand(const Provenance& provenance, const AxisValues& technique,
-                         const std::vector<std::string>& scenes, const std::vector<VaryingAxis>& axes);
+// `probebench run ...` of the cells of a technique on these scenes, with the suite and options of the run.
+inline constexpr char kCommandSetting[] = "command";  // of Provenance::settings: the run's own, where it is known
+std::string rerunCommand(const Results& results, const AxisValues& technique, const std::vector<std::string>& scenes);
 
-// At most ten lines for the end of a run and the head of a report: where the error comes from, the cheapest setting that
-// is good enough, what the next step buys. Without line breaks; empty where there is nothing to say.
+// At most ten lines for the end of a run and the head of a report: where the error comes from, the cheapest setting
+// that is good enough, what the next step buys. Without line breaks; empty where there is nothing to say.
 std::vector<std::string> summaryLines(const Results& results, const PrintSettings& settings = {});
 
 }  // namespace pb

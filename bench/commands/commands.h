@@ -36,6 +36,7 @@ void addCertifyCommand(CLI::App& app, const GlobalOptions& globals, Action& acti
 void addCheckCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addCompareCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addMergeCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
+void addRecommendCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addReportCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
