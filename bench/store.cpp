@@ -95,10 +95,14 @@ std::string ReferenceStore::describe(const ReferenceRequest& request) {
 
 fs::path ReferenceStore::entry(const ReferenceRequest& request) const { return folder_ / hexHash(describe(request)); }
 
-std::optional<ReferenceImage> ReferenceStore::load(const ReferenceRequest& request, std::string& warning) const {
-  const fs::path path = entry(request);
+bool ReferenceStore::contains(const ReferenceRequest& request) const {
   std::error_code unreadable;  // the same as absent: rendering anew is always right
-  if (!fs::exists(withSuffix(path, ".json"), unreadable)) return std::nullopt;
+  return fs::exists(withSuffix(entry(request), ".json"), unreadable);
+}
+
+std::optional<ReferenceImage> ReferenceStore::load(const ReferenceRequest& request, std::string& warning) const {
+  if (!contains(request)) return std::nullopt;
+  const fs::path path = entry(request);
   try {
     return readEntry(path, request);
   } catch (const std::exception& error) {

@@ -41,8 +41,13 @@ class ReferenceStore {
   // which is said in `warning`.
   std::optional<ReferenceImage> load(const ReferenceRequest& request, std::string& warning) const;
 
+  // Whether there is an entry; it may still turn out to be damaged.
+  bool contains(const ReferenceRequest& request) const;
+
   // Throws an environment Error that names the folder when it can't be written.
   void save(const ReferenceRequest& request, const ReferenceImage& image) const;
+
+  const std::filesystem::path& folder() const { return folder_; }
 
  private:
   std::filesystem::path entry(const ReferenceRequest& request) const;

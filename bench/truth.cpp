@@ -47,6 +47,25 @@ std::shared_ptr<const Truth> TruthMaker::make(std::shared_ptr<const Snapshot> sn
                                              std::move(maskFloor), MetricsReference(mean, display)});
 }
 
+ReferenceImage TruthMaker::reference(const std::shared_ptr<const Snapshot>& snapshot,
+                                     std::vector<std::string>& warnings) const {
+  return obtainQuietEnough(snapshot, ReferenceScene(snapshot), warnings);
+}
+
+bool TruthMaker::isStored(const std::shared_ptr<const Snapshot>& snapshot) const {
+  return store_.contains(firstRequest(snapshot));
+}
+
+ReferenceRequest TruthMaker::firstRequest(const std::shared_ptr<const Snapshot>& snapshot) const {
+  ReferenceRequest request{snapshot, image_.widthPx, image_.heightPx, {}};
+  request.settings.samplesPerAxis = image_.samplesPerAxis;
+  request.settings.depth = settings_.depth;
+  request.settings.diffuse = settings_.diffuse;
+  request.settings.diffuseDepth = settings_.diffuseDepth;
+  request.settings.spp = settings_.spp;
+  return request;
+}
+
 ReferenceImage TruthMaker::obtain(const ReferenceRequest& request, const ReferenceScene& scene,
                                   std::vector<std::string>& warnings) const {
   std::string warning;
@@ -64,12 +83,7 @@ ReferenceImage TruthMaker::obtain(const ReferenceRequest& request, const Referen
 
 ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapshot>& snapshot,
                                              const ReferenceScene& scene, std::vector<std::string>& warnings) const {
-  ReferenceRequest request{snapshot, image_.widthPx, image_.heightPx, {}};
-  request.settings.samplesPerAxis = image_.samplesPerAxis;
-  request.settings.depth = settings_.depth;
-  request.settings.diffuse = settings_.diffuse;
-  request.settings.diffuseDepth = settings_.diffuseDepth;
-  request.settings.spp = settings_.spp;
+  ReferenceRequest request = firstRequest(snapshot);
   ReferenceImage image = obtain(request, scene, warnings);
   if (!settings_.maxNoise) return image;
   const AdaptiveGoal goal{*settings_.maxNoise, mostSpp(settings_)};

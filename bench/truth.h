@@ -44,7 +44,14 @@ class TruthMaker {
   std::shared_ptr<const Truth> make(std::shared_ptr<const Snapshot> snapshot, double exposure,
                                     std::vector<std::string>& warnings) const;
 
+  // The reference of make() with all its batches.
+  ReferenceImage reference(const std::shared_ptr<const Snapshot>& snapshot, std::vector<std::string>& warnings) const;
+
+  // Whether the store has its first picture; with max_noise there may be more to render.
+  bool isStored(const std::shared_ptr<const Snapshot>& snapshot) const;
+
  private:
+  ReferenceRequest firstRequest(const std::shared_ptr<const Snapshot>& snapshot) const;
   ReferenceImage obtain(const ReferenceRequest& request, const ReferenceScene& scene,
                         std::vector<std::string>& warnings) const;
   ReferenceImage obtainQuietEnough(const std::shared_ptr<const Snapshot>& snapshot, const ReferenceScene& scene,
