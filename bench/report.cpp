@@ -416,10 +416,14 @@ std::string makeReport(const Results& results, const AxisValues& defaults) {
   return text + circumstances(results.provenance);
 }
 
-void writeReport(const Results& results, const std::string& directory, const AxisValues& defaults) {
+void makeReportFolder(const std::string& directory) {
   std::error_code failure;
   std::filesystem::create_directories(directory, failure);
   if (failure) throwEnvironmentError("can't make directory '{}': {}", directory, failure.message());
+}
+
+void writeReport(const Results& results, const std::string& directory, const AxisValues& defaults) {
+  makeReportFolder(directory);
   writeFileAtomically(directory + "/report.md", makeReport(results, defaults));
   writeFileAtomically(directory + "/report.csv", toCsv(results));
 }

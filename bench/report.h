@@ -11,6 +11,9 @@ namespace pb {
 // defaults: of the axes; those that stand there in the whole run need no words.
 std::string makeReport(const Results& results, const AxisValues& defaults = {});
 
+// Makes the directory if it is absent; an environment Error if that fails.
+void makeReportFolder(const std::string& directory);
+
 // Writes report.md and report.csv into the directory (made if absent).
 void writeReport(const Results& results, const std::string& directory, const AxisValues& defaults = {});
 

@@ -7,26 +7,62 @@
 
 #include "bench/axes.h"
 #include "bench/commands/commands.h"
+#include "bench/recommend.h"
+#include "bench/report/brief.h"
+#include "bench/report/comparison.h"
+#include "bench/report/page.h"
+#include "scenes/files.h"
 
 namespace pb {
 namespace {
 
-int report(const std::string& run, const std::string& output) {
-  const Results results = readResults(run);
-  fmt::print("{}", makeReport(results, describe(Technique())));
-  if (!output.empty()) writeReport(results, output, describe(Technique()));
+struct ReportOptions {
+  std::string run, other, output;
+  bool brief = false;
+};
+
+std::string pageOf(const std::string& folder) { return folder + "/report.html"; }
+
+int reportRun(const ReportOptions& options) {
+  const Results results = readResults(options.run);
+  const AxisValues defaults = describe(Technique());
+  const std::vector<std::string> answer = summaryLines(results, {options.run, defaults});
+  fmt::print("{}", options.brief ? makeBrief(results, answer) : makeReport(results, defaults));
+  if (options.output.empty()) return 0;
+  writeReport(results, options.output, defaults);
+  writePage({{"", options.run, results}}, answer, pageOf(options.output));
+  fmt::print(stderr, "report: {}\n", pageOf(options.output));
+  return 0;
+}
+
+// The report of two runs is short enough for a pull request as it is.
+int reportChange(const ReportOptions& options) {
+  const Results before = readResults(options.run), after = readResults(options.other);
+  const AxisValues defaults = describe(Technique());
+  const std::string text = makeComparisonReport(before, after, defaults);
+  fmt::print("{}", text);
+  if (options.output.empty()) return 0;
+  makeReportFolder(options.output);
+  writeFileAtomically(options.output + "/report.md", text);
+  writeFileAtomically(options.output + "/report.csv", comparisonToCsv(before, after, defaults));
+  writePage({{"before", options.run, before}, {"after", options.other, after}},
+            summaryLines(after, {options.other, defaults}), pageOf(options.output));
+  fmt::print(stderr, "report: {}\n", pageOf(options.output));
   return 0;
 }
 
 }  // namespace
 
 void addReportCommand(CLI::App& app, const GlobalOptions&, Action& action) {
-  CLI::App* command = app.add_subcommand("report", "tables of a run");
-  const auto run = std::make_shared<std::string>();
-  const auto output = std::make_shared<std::string>();
-  command->add_option("RUN_DIR", *run, "folder of a run")->required();
-  command->add_option("-o", *output, "also write report.md and report.csv there");
-  command->callback([&action, run, output] { action = [run, output] { return report(*run, *output); }; });
+  CLI::App* command = app.add_subcommand("report", "tables and pictures of a run, or of two runs compared");
+  const auto options = std::make_shared<ReportOptions>();
+  command->add_option("RUN_DIR", options->run, "folder of a run")->required();
+  command->add_option("OTHER", options->other, "folder of a later run: cell by cell, what changed from RUN_DIR to it");
+  command->add_option("-o", options->output, "also write report.md, report.csv and the page report.html there");
+  command->add_flag("--pull-request", options->brief, "print a few lines instead of all tables");
+  command->callback([&action, options] {
+    action = [options] { return options->other.empty() ? reportRun(*options) : reportChange(*options); };
+  });
 }
 
 }  // namespace pb

@@ -21,7 +21,7 @@ function errorTable(cell) {
     columns.push(numberColumn(region, name, (row) => errorOf(cell, question(row))));
     if (METRICS.some((row) => intervalOf(cell, question(row))))
       columns.push({key: `${region}-interval`, title: "95 %", text: (row) => intervalOf(cell, question(row))?.map((v) => significant(v)).join(" … ") ?? "–"});
-    columns.push(numberColumn(`${region}-floor`, "noise floor", (row) => floorOf(cell, question(row)), {note: "what the reference's own noise adds"}));
+    if (METRICS.some((row) => floorOf(cell, question(row)) > 0)) columns.push(numberColumn(`${region}-floor`, "noise floor", (row) => floorOf(cell, question(row)), {note: "what the reference's own noise adds"}));
     if (cell.matched) columns.push(numberColumn(`${region}-matched`, "own bounces", (row) => errorOf(cell, question(row, "matched")), {note: "against the truth with the technique's number of bounces"}));
   }
   return new Table({caption: "Errors", columns, rows: METRICS, rowKey: (row) => row.key, filterable: false}).element;
@@ -60,12 +60,12 @@ function objectTable(cell) {
   const columns = [{key: "object", title: "object", left: true, text: (row) => row.object}, {key: "material", title: "material", left: true, text: (row) => row.material ?? ""}, ...regionColumns,
     {key: "probe", title: "probe", text: (row) => String(row.probe ?? "–")}, numberColumn("distance", "distance m", (row) => row.probe_distance ?? NaN, {note: "from the surface to its probe, mean"}),
     numberColumn("roughness", "roughness", (row) => row.roughness ?? NaN)];
-  return new Table({caption: "Errors by object", columns, rows: cell.objects, rowKey: (row) => row.object, sort: byShare}).element;
+  return new Table({caption: "Errors by object", columns, rows: cell.objects, rowKey: (row) => row.object, sort: byShare, filterable: cell.objects.length > 12}).element;
 }
 
 function materialTable(cell) {
   const columns = [{key: "material", title: "material", left: true, text: (row) => row.material}, ...regionColumns];
-  return new Table({caption: "Errors by material", columns, rows: cell.materials, rowKey: (row) => row.material, sort: byShare}).element;
+  return new Table({caption: "Errors by material", columns, rows: cell.materials, rowKey: (row) => row.material, sort: byShare, filterable: cell.materials.length > 12}).element;
 }
 
 export function cellDetails(cell, viewer, pictures) {
@@ -73,7 +73,7 @@ export function cellDetails(cell, viewer, pictures) {
   fillCrops(crops, cell, pictures, (cluster) => viewer.showRectangle(cluster)).catch(() => crops.replaceChildren());
   return [
     element("h3", {}, `${cell.sequence.label}, frame ${cell.frame}`),
-    element("p", {class: "note"}, element("a", {href: linkTo(cell), class: "permalink"}, "Link to this cell"), " · key for --only: ", element("code", {}, cell.shortKey)),
+    element("p", {class: "note"}, element("a", {href: linkTo(cell), class: "permalink"}, "Link to this cell"), " · ", element("code", {}, cell.shortKey)),
     viewer.element, crops,
     element("div", {class: "columns"}, errorTable(cell), pairsTable("Cost and work", costPairs(cell))),
     cell.objects?.length ? objectTable(cell) : null,

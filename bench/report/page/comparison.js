@@ -41,7 +41,7 @@ export function comparisonSection(comparison, model) {
   const fill = (quantity) => {
     const rows = rowsOf(comparison, model, quantity);
     counts.textContent = `${rows.length} cells: ${countText(rows)}.`;
-    place.replaceChildren(new Table({caption: "Before and after", columns: columnsOf(), rows, rowKey: (row) => row.cell.shortKey, sort: {key: "relative", descending: true}}).element);
+    place.replaceChildren(new Table({caption: "Before and after", columns: columnsOf(), rows, rowKey: (row) => row.cell.shortKey, hint: "words, change=worse, after<0.1", sort: {key: "relative", descending: true}}).element);
   };
   if (known.length) fill(known[0][0]);
   const {onlyBefore, onlyAfter} = comparison;

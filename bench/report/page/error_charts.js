@@ -55,8 +55,8 @@ function scatterSpec(view, question, cost, colours) {
     spec: {
       data: [{name: "points", values}, {name: "front", values: front}],
       scales: [
-        {name: "x", ...scaleFor(values.map((v) => v.x)), domain: {data: "points", fields: ["xLow", "xHigh"]}, range: "width"},
-        {name: "y", ...scaleFor(values.map((v) => v.y)), domain: {data: "points", fields: ["low", "high"]}, range: "height"},
+        {name: "x", ...scaleFor(values.flatMap((v) => [v.xLow, v.xHigh])), range: "width"},
+        {name: "y", ...scaleFor(values.flatMap((v) => [v.low, v.high])), range: "height"},
         colourScale("colour", colours, distinct("colour")),
         {name: "shape", type: "ordinal", domain: distinct("shape"), range: ["circle", "square", "triangle-up", "diamond", "cross", "triangle-down"]},
       ],
@@ -86,10 +86,10 @@ export function costScatter(context) {
 function linesSpec(points, {xTitle, yTitle, colourTitle, xValues, colourValues, categories}, colours) {
   if (points.length < 2 || xValues.length < 2) return null;
   const x = categories ? {name: "x", type: "point", domain: xValues, range: "width", padding: 0.3}
-    : {name: "x", type: "linear", zero: false, nice: true, domain: {data: "points", field: "x"}, range: "width"};
+    : {name: "x", type: "linear", zero: false, padding: 8, domain: {data: "points", field: "x"}, range: "width"};
   return {spec: {
     data: [{name: "points", values: points}],
-    scales: [x, {name: "y", ...scaleFor(points.map((p) => p.y)), domain: {data: "points", fields: ["low", "high"]}, range: "height"},
+    scales: [x, {name: "y", ...scaleFor(points.flatMap((p) => [p.low, p.high])), range: "height"},
       colourScale("colour", colours, colourValues)],
     axes: [categories ? {scale: "x", orient: "bottom", title: xTitle, grid: false} : {...numberAxis("x", "bottom", xTitle), grid: false},
       numberAxis("y", "left", yTitle)],
@@ -168,8 +168,8 @@ function stalenessSpec(view, question, colours) {
   if (new Set(points.map((p) => p.x)).size < 2) return null;
   return {spec: {
     data: [{name: "points", values: points}],
-    scales: [{name: "x", type: "linear", zero: true, nice: true, domain: {data: "points", field: "x"}, range: "width"},
-      {name: "y", ...scaleFor(points.map((p) => p.y)), domain: {data: "points", field: "y"}, range: "height"}, colourScale("colour", colours, axis?.values ?? ["–"])],
+    scales: [{name: "x", type: "linear", zero: true, padding: 8, domain: {data: "points", field: "x"}, range: "width"},
+      {name: "y", ...scaleFor(points.map((p) => p.y)), range: "height"}, colourScale("colour", colours, axis?.values ?? ["–"])],
     axes: [{...numberAxis("x", "bottom", "mean age of the cube faces, frames")}, numberAxis("y", "left", metricTitle(question))],
     legends: axis ? [legend("colour", axis.name)] : [],
     marks: [{type: "symbol", from: {data: "points"}, encode: {update: {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}, fill: {scale: "colour", field: "colour"},

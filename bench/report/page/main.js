@@ -8,7 +8,7 @@ import {costNamed} from "./error_charts.js";
 import {COSTS, METRICS, makeModel} from "./model.js";
 import {Pictures} from "./pictures.js";
 import {findCell, linkTo, onPlace, readPlace, replacePlace} from "./places.js";
-import {answerSection, cellTable, chartsOf, circumstancesSection, firstLine, overviewTable} from "./sections.js";
+import {answerSection, bestOf, cellTable, chartsOf, circumstancesSection, firstLine, overviewTable} from "./sections.js";
 import {Viewer} from "./viewer.js";
 
 class Page {
@@ -117,7 +117,7 @@ class Page {
   listen() {
     onPlace((place) => this.openPlace(place));
     document.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input:not([type=radio]):not([type=range]), select, textarea")) return;
+      if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("input:not([type=radio]):not([type=range]), select, textarea")) return;
       if (this.viewer.key(event.key)) event.preventDefault();
     });
   }
@@ -149,7 +149,7 @@ async function start() {
   page.listen();
   const view = page.settings.view;
   if (readPlace().cell) page.openPlace(readPlace());
-  else await page.open([...view.sequences].at(-1).cells.at(-1));
+  else await page.open(bestOf(view, page.questionFor(view)).cells.at(-1));
   document.documentElement.dataset.ready = "yes";
 }
 

@@ -2,7 +2,7 @@
 import {numberColumn} from "./cell_details.js";
 import {element, section} from "./dom.js";
 import {axisChart, costScatter, frontOf, timeCharts} from "./error_charts.js";
-import {COSTS, METRICS, faceAgeOf, meanError, worstError} from "./model.js";
+import {COSTS, METRICS, faceAgeOf, isMoreBetter, meanError, worstError} from "./model.js";
 import {mean} from "./numbers.js";
 import {linkTo} from "./places.js";
 import {Table} from "./table.js";
@@ -12,7 +12,11 @@ export function answerSection(answer) {
   return answer.length > 0 && section("answer", "Answer", element("ol", {class: "answer"}, answer.map((line) => element("li", {}, line))));
 }
 
-const best = (view, question) => [...view.sequences].sort((a, b) => meanError(a, question) - meanError(b, question))[0];
+export function bestOf(view, question) {
+  const sign = isMoreBetter(question.metric) ? -1 : 1;
+  const loss = (sequence) => sign * meanError(sequence, question);
+  return view.sequences.reduce((best, s) => (loss(s) < loss(best) || Number.isNaN(loss(best)) ? s : best));
+}
 
 // One row a view: where to start reading.
 export function overviewTable(model, questionFor, chooseView) {
@@ -21,17 +25,17 @@ export function overviewTable(model, questionFor, chooseView) {
   const rows = model.views.map((view) => {
     const question = questionFor(view);
     const front = frontOf(view, question, cost);
-    return {view, question, best: best(view, question), cheapest: front[0]?.sequence};
+    return {view, question, best: bestOf(view, question), cheapest: front[0]?.sequence};
   });
   const text = (key, title, of, cell) => ({key, title, left: true, text: of, ...(cell ? {cell} : {})});
   return new Table({caption: "Scenes", rows, filterable: false, rowKey: (row) => row.view.id, columns: [
     text("scene", "scene", (row) => row.view.title, (row) => element("button", {type: "button", class: "link", onclick: () => chooseView(row.view)}, row.view.title)),
     {key: "techniques", title: "techniques", value: (row) => row.view.sequences.length, text: (row) => String(row.view.sequences.length)},
     {key: "frames", title: "frames", value: (row) => row.view.frames.length, text: (row) => String(row.view.frames.length)},
-    text("best", "smallest error", (row) => row.best.label, (row) => link(row.best)),
+    {...text("best", "smallest error", (row) => row.best.label, (row) => link(row.best)), wrap: true},
     numberColumn("best-error", "FLIP-HDR", (row) => meanError(row.best, row.question)),
     numberColumn("best-cost", "× plain", (row) => cost.of(row.best.cells[0]) ?? NaN),
-    text("cheapest", "cheapest", (row) => row.cheapest?.label ?? "–", (row) => link(row.cheapest)),
+    {...text("cheapest", "cheapest", (row) => row.cheapest?.label ?? "–", (row) => link(row.cheapest)), wrap: true},
     numberColumn("cheapest-error", "FLIP-HDR", (row) => (row.cheapest ? meanError(row.cheapest, row.question) : NaN)),
     numberColumn("cheapest-cost", "× plain", (row) => (row.cheapest ? cost.of(row.cheapest.cells[0]) : NaN)),
   ]}).element;
@@ -67,7 +71,8 @@ export function cellTable(context) {
   const columns = [open, ...axes, ...errorColumns, ...costColumns(view),
     numberColumn("age", "face age", (s) => mean(s.cells.map(faceAgeOf)), {note: "frames since the capture, mean over faces and frames"}),
     {key: "front", title: "front", note: "on the Pareto front of error and cost", value: (s) => Number(front.has(s)), text: (s) => (front.has(s) ? "●" : "")}];
-  return new Table({caption: `Techniques on ${view.title}, ${question.region === "mask" ? "errors of the mask" : "errors of the whole image"}${view.frames.length > 1 ? ", mean over the frames" : ""}`, columns, rows: view.sequences, rowKey: (s) => s.label});
+  return new Table({caption: `Techniques on ${view.title}, ${question.region === "mask" ? "errors of the mask" : "errors of the whole image"}${view.frames.length > 1 ? ", mean over the frames" : ""}`, columns, rows: view.sequences, rowKey: (s) => s.label,
+    hint: `words, ${view.axes[0] ? `${view.axes[0].name}=${view.axes[0].values.at(-1)}, ` : ""}flip_hdr<0.1`});
 }
 
 export function circumstancesSection(model) {

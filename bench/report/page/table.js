@@ -21,6 +21,8 @@ function testOf(word, columns) {
   }
 }
 
+const classOf = (column) => [column.left && "left", column.wrap && "wrap"].filter(Boolean).join(" ") || undefined;
+
 function compared(a, b) {
   if (typeof a === "number" && typeof b === "number") {
     if (Number.isNaN(a) || Number.isNaN(b)) return Number.isNaN(a) - Number.isNaN(b);
@@ -30,9 +32,9 @@ function compared(a, b) {
   return Number.isNaN(x) || Number.isNaN(y) ? String(a).localeCompare(String(b)) : x - y;
 }
 
-// columns: [{key, title, text(row), value(row)?, left?, cell(row)?, note?}]: `value` sorts and is compared with, `cell` is shown.
+// columns: [{key, title, text(row), value(row)?, left?, wrap?, cell(row)?, note?}]: `value` sorts and is compared with, `cell` is shown.
 export class Table {
-  constructor({caption, columns, rows, rowKey = () => "", filterable = true, sort = null}) {
+  constructor({caption, columns, rows, rowKey = () => "", filterable = true, hint = "words", sort = null}) {
     this.columns = columns.map((column) => ({value: column.text, cell: column.text, ...column}));
     this.rows = rows;
     this.rowKey = rowKey;
@@ -42,22 +44,22 @@ export class Table {
     this.count = element("output", {class: "count"});
     this.head = element("tr", {}, this.columns.map((column) => this.headOf(column)));
     const table = element("table", {}, element("caption", {}, caption), element("thead", {}, this.head), this.body);
-    this.element = element("div", {class: "table"}, filterable && rows.length > 5 && this.filterOf(caption),
+    this.element = element("div", {class: "table"}, filterable && rows.length > 5 && this.filterOf(caption, hint),
       element("div", {class: "scroll", tabindex: 0, role: "region", "aria-label": caption}, table));
     this.fill();
   }
 
-  filterOf(caption) {
+  filterOf(caption, hint) {
     const id = freshId("filter");
     return element("div", {class: "filter"},
       element("label", {for: id}, "Filter"),
-      element("input", {id, type: "search", placeholder: `words, ${this.columns[0].title}=…, ${this.columns.at(-1).title}<…`,
+      element("input", {id, type: "search", placeholder: hint,
         "aria-label": `Filter: ${caption}`, oninput: (event) => { this.filter = event.target.value; this.fill(); }}),
       this.count);
   }
 
   headOf(column) {
-    return element("th", {scope: "col", class: column.left ? "left" : undefined, "data-key": column.key},
+    return element("th", {scope: "col", class: classOf(column), "data-key": column.key},
       element("button", {type: "button", title: column.note, onclick: () => this.sortBy(column.key)}, column.title));
   }
 
@@ -82,7 +84,7 @@ export class Table {
     }
     const rows = this.shownRows();
     this.body.replaceChildren(...rows.map((row) => element("tr", {"data-key": this.rowKey(row)},
-      this.columns.map((column) => element("td", {class: column.left ? "left" : undefined}, column.cell(row))))));
+      this.columns.map((column) => element("td", {class: classOf(column)}, column.cell(row))))));
     if (!rows.length) this.body.append(element("tr", {}, element("td", {class: "left", colspan: this.columns.length}, "No row passes the filter.")));
     this.count.textContent = rows.length < this.rows.length ? `${rows.length} of ${this.rows.length}` : `${rows.length} rows`;
     this.mark(this.marked);
