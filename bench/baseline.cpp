@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <set>
 
+#include "bench/platform.h"
 #include "bench/results_json.h"
+#include "bench/tolerance_json.h"
 #include "results/schema/baseline.schema.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
@@ -58,11 +60,14 @@ BaselineCell baselineCellFromJson(const Json& json) {
 }
 
 Json baselineCostToJson(const BaselineCost& cost) {
-  return {{"ratio", cost.ratio}, {"ratio_low", cost.ratioLow}, {"ratio_high", cost.ratioHigh}};
+  Json json = {{"ratio", cost.ratio}, {"ratio_low", cost.ratioLow}, {"ratio_high", cost.ratioHigh}};
+  if (!cost.ratios.empty()) json["ratios"] = cost.ratios;
+  return json;
 }
 
 BaselineCost baselineCostFromJson(const Json& json) {
-  return {json.at("ratio").get<double>(), json.at("ratio_low").get<double>(), json.at("ratio_high").get<double>()};
+  return {json.at("ratio").get<double>(), json.at("ratio_low").get<double>(), json.at("ratio_high").get<double>(),
+          json.value("ratios", std::vector<double>())};
 }
 
 // A metric that was edited out of one cell would silently not be compared.
@@ -74,8 +79,18 @@ void requireGatedMetrics(const GatedMetrics& metrics, const Baseline& baseline, 
                     place, cell.key);
 }
 
+// Warning levels and those of scenes belong to metrics that can fail.
+void requireGated(const Tolerances& tolerances, const Baseline& baseline, const std::string& place) {
+  for (const auto& [metric, tolerance] : tolerances)
+    if (findTolerance(baseline.tolerance, metric) == nullptr)
+      throwInputError("'{}' has a level for '{}', which has no tolerance there", place, metric);
+}
+
 void requireConsistent(const Baseline& baseline, const std::string& place) {
   for (const auto& [key, limit] : baseline.tolerance) metricValue({}, key);
+  requireGated(baseline.warnTolerance, baseline, place);
+  for (const auto& [scope, levels] : baseline.sceneTolerances)
+    for (const Tolerances& level : {levels.fail, levels.warn}) requireGated(level, baseline, place);
   std::set<std::string> keys;
   for (const BaselineCell& cell : baseline.cells) {
     if (!keys.insert(cell.key).second) throwInputError("a cell may stand once in '{}', twice: {}", place, cell.key);
@@ -93,11 +108,11 @@ std::string utcNow() {
   return text;
 }
 
-void requireSameDriver(const Provenance& run, const std::string& baselinePath) {
-  const Provenance old = readBaseline(baselinePath).provenance;
-  if (!sameDriver(run, old))
-    throwInputError("baseline '{}' was made with '{}' ({}), the run with '{}' ({}): --force replaces it", baselinePath,
-                    old.glRenderer, old.glVersion, run.glRenderer, run.glVersion);
+void requireSamePlatform(const Provenance& run, const std::string& baselinePath) {
+  const std::vector<PlatformDifference> differences = platformDifferences(readBaseline(baselinePath).provenance, run);
+  if (!differences.empty())
+    throwInputError("baseline '{}' was made on another platform: {}; --force replaces it", baselinePath,
+                    describe(differences));
 }
 
 void requireQuietReferences(const Results& run) {
@@ -126,18 +141,15 @@ void requireBlessable(const Results& run, const std::string& reason) {
 
 }  // namespace
 
-bool sameDriver(const Provenance& a, const Provenance& b) {
-  return a.glRenderer == b.glRenderer && a.glVersion == b.glVersion;
-}
-
 Baseline makeBaseline(const Results& run, const std::string& reason, const std::string& blessedAt,
                       const AxisValues& defaults) {
-  Baseline baseline{reason, blessedAt, run.provenance, run.tolerance, defaults, {}, {}};
+  Baseline baseline{reason, blessedAt, run.provenance,    run.tolerance,      defaults,
+                    {},     {},        run.warnTolerance, run.sceneTolerances};
   for (const CellResult& cell : run.cells) {
     baseline.cells.push_back(makeCell(cell, run.tolerance, defaults));
     if (cell.cost)
       baseline.costs[shortKey(cell.sequenceKey(), defaults)] = {cell.cost->ratio, cell.cost->ratioLow,
-                                                                cell.cost->ratioHigh};
+                                                                cell.cost->ratioHigh, cell.cost->ratios};
   }
   return baseline;
 }
@@ -148,7 +160,7 @@ std::string toJson(const Baseline& baseline) {
   head["reason"] = baseline.reason;
   head["blessed_at"] = baseline.blessedAt;
   head["provenance"] = provenanceToJson(baseline.provenance);
-  head["tolerance"] = tolerancesToJson(baseline.tolerance);
+  writeTolerances(head, {baseline.tolerance, baseline.warnTolerance}, baseline.sceneTolerances);
   head["defaults"] = axisValuesToJson(baseline.defaults);
   head["costs"] = Json::object();
   for (const auto& [sequence, cost] : baseline.costs) head["costs"][sequence] = baselineCostToJson(cost);
@@ -163,7 +175,10 @@ Baseline baselineFromJson(const std::string& text, const std::string& place) {
   baseline.reason = document.at("reason").get<std::string>();
   baseline.blessedAt = document.at("blessed_at").get<std::string>();
   baseline.provenance = provenanceFromJson(document.at("provenance"));
-  baseline.tolerance = tolerancesFromJson(document.at("tolerance"));
+  ToleranceLevels levels = readTolerances(document);
+  baseline.tolerance = std::move(levels.fail);
+  baseline.warnTolerance = std::move(levels.warn);
+  baseline.sceneTolerances = readSceneTolerances(document);
   if (const auto defaults = document.find("defaults"); defaults != document.end())
     baseline.defaults = axisValuesFromJson(*defaults);
   for (const auto& [sequence, cost] : document.at("costs").items())
@@ -179,7 +194,7 @@ void bless(const Results& run, const std::string& baselinePath, const std::strin
            const AxisValues& defaults) {
   requireBlessable(run, reason);
   if (!force) requireQuietReferences(run);
-  if (!force && std::filesystem::exists(baselinePath)) requireSameDriver(run.provenance, baselinePath);
+  if (!force && std::filesystem::exists(baselinePath)) requireSamePlatform(run.provenance, baselinePath);
   writeFileAtomically(baselinePath, toJson(makeBaseline(run, reason, utcNow(), defaults)));
 }
 

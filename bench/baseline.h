@@ -27,6 +27,7 @@ struct BaselineCell {
 
 struct BaselineCost {
   double ratio = 0, ratioLow = 0, ratioHigh = 0;
+  std::vector<double> ratios;  // of the repetitions; empty in files from before they were stored
 };
 
 struct Baseline {
@@ -36,6 +37,8 @@ struct Baseline {
   AxisValues defaults;  // what axes stand at that the keys don't name; empty in files from before it was stored
   std::vector<BaselineCell> cells;
   std::map<std::string, BaselineCost> costs;  // by shortKey() of CellResult::sequenceKey()
+  Tolerances warnTolerance;
+  SceneTolerances sceneTolerances;
 };
 
 // `defaults`: of every axis.
@@ -47,12 +50,9 @@ std::string toJson(const Baseline& baseline);
 Baseline baselineFromJson(const std::string& text, const std::string& place);
 Baseline readBaseline(const std::string& path);
 
-// Whether counters and costs of the two are comparable at all: same GL renderer and version.
-bool sameDriver(const Provenance& a, const Provenance& b);
-
 // Writes the baseline of a run. Throws an input Error for an empty reason, a run without cells or tolerances, and one
 // whose control did not pass; unless `force`, also an inconclusive Error for references that missed max_noise and an
-// input Error for another GL renderer or driver than that of the baseline that is there.
+// input Error for another GL driver or other libraries than those of the baseline that is there.
 void bless(const Results& run, const std::string& baselinePath, const std::string& reason, bool force,
            const AxisValues& defaults = {});
 

@@ -58,6 +58,7 @@ class Measurement {
     measurePlain(plainFrames);
     const double plainMs = median(plainFrames);
     frameMs_.push_back(meanOf(frames));
+    allFramesMs_.insert(allFramesMs_.end(), frames.begin(), frames.end());
     plainMs_.push_back(plainMs);
     ratios_.push_back(frameMs_.back() / plainMs);
     state.counters["plain_ms"] = plainMs;
@@ -78,6 +79,8 @@ class Measurement {
     cost.ratio = ratio.median;
     cost.ratioLow = ratio.low;
     cost.ratioHigh = ratio.high;
+    cost.ratios = ratios_;
+    cost.peaks = peaksOf(allFramesMs_);
     cost.rendersPerFrame = model.perFrame;
     cost.rendersFormula = model.formula;
     cost.measuredRendersPerFrame = 1 + facesPerFrame_;
@@ -157,6 +160,7 @@ class Measurement {
   RasterSequence sequence_, plain_;
   double facesPerFrame_ = 0;
   std::vector<double> frameMs_, plainMs_, ratios_;  // one a repetition
+  std::vector<double> allFramesMs_;                 // of all repetitions
 };
 
 // Google Benchmark takes its flags' defaults from the environment, where users keep them for other programs; each of
@@ -252,6 +256,10 @@ int blockFrames(const Technique& technique, int probes, int measuredFrames) {
   const int cycle = std::max(1, refreshPolicy(technique.refresh).cycle(technique.refresh, faces));
   const int cycles = std::max(1, (measuredFrames + cycle - 1) / cycle);
   return static_cast<int>(std::min<long long>(static_cast<long long>(cycle) * cycles, kMaxBlockFrames));
+}
+
+CostPeaks peaksOf(std::span<const double> frameMs) {
+  return {quantile(frameMs, 0.5), quantile(frameMs, 0.95), quantile(frameMs, 0.99), quantile(frameMs, 1.0)};
 }
 
 RenderCount modelRenders(const Technique& technique, const Snapshots& snapshots) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "bench/gate_cost.h"
+#include "bench/platform.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -36,10 +38,29 @@ double limitFor(const Tolerance& tolerance, const std::optional<double>& before)
   return finite ? largestAllowedDelta(tolerance, *before) : 0.0;
 }
 
+// The levels of one metric on one scene.
+struct MetricLevels {
+  const Tolerance& fail;
+  const Tolerance* warn;  // nullptr: a change is not reported before it fails
+};
+
+MetricLevels levelsOf(const Baseline& baseline, const std::string& scope, const std::string& metric) {
+  if (const auto scene = baseline.sceneTolerances.find(scope); scene != baseline.sceneTolerances.end())
+    if (const Tolerance* fail = findTolerance(scene->second.fail, metric))
+      return {*fail, findTolerance(scene->second.warn, metric)};
+  return {*findTolerance(baseline.tolerance, metric), findTolerance(baseline.warnTolerance, metric)};
+}
+
+// What another platform may have changed as well as the code. Cells that are missing and a failed control are not.
+bool isOfPlatform(const Finding& finding) {
+  return finding.level == Level::fail && (finding.kind == FindingKind::changed ||
+                                          finding.kind == FindingKind::counter || finding.kind == FindingKind::cost);
+}
+
 class Comparison {
  public:
-  Comparison(const Results& run, const Baseline& baseline, const AxisValues& defaults)
-      : run_(run), baseline_(baseline), defaults_(defaultsOf(baseline, defaults)) {
+  Comparison(const Results& run, const Baseline& baseline, const AxisValues& defaults, const Results* rerun)
+      : run_(run), baseline_(baseline), rerun_(rerun), defaults_(defaultsOf(baseline, defaults)) {
     for (const CellResult& cell : run.cells)
       if (!runCells_.emplace(keyOf(cell), &cell).second)
         throwInputError("a cell may stand once in a run, twice: {}", keyOf(cell));
@@ -49,7 +70,7 @@ class Comparison {
     compareControl();
     compareCells();
     findSurplus();
-    compareCosts();
+    addCosts();
     findNoise();
     noteDifferences();
     conclude();
@@ -65,7 +86,6 @@ class Comparison {
   }
 
   std::string keyOf(const CellResult& cell) const { return shortKey(cell.key(), defaults_); }
-  std::string sequenceKeyOf(const CellResult& cell) const { return shortKey(cell.sequenceKey(), defaults_); }
 
   void compareControl() {
     const std::string& outcome = run_.provenance.controlOutcome;
@@ -85,31 +105,34 @@ class Comparison {
   }
 
   void compareCell(const std::string& key, const BaselineCell& before, const CellResult& after) {
-    compareMetrics(key, "", before.metrics, after.metrics);
+    const std::string scope = toleranceScope(after.scene, after.camera);
+    compareMetrics(key, scope, "", before.metrics, after.metrics);
     if (before.maskMetrics && after.maskMetrics)
-      compareMetrics(key, "mask ", *before.maskMetrics, *after.maskMetrics);
+      compareMetrics(key, scope, "mask ", *before.maskMetrics, *after.maskMetrics);
     else if (before.maskMetrics || after.maskMetrics)
       report_.findings.push_back(
           makeFinding(before.maskMetrics ? FindingKind::missing : FindingKind::surplus, key, "mask"));
     if (sameDriver(run_.provenance, baseline_.provenance)) compareCounters(key, before, after);
   }
 
-  // Both lists stand in the order of the tolerances.
-  void compareMetrics(const std::string& cell, const std::string& region, const GatedMetrics& before,
-                      const Metrics& after) {
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const auto& [key, value] = before[i];
-      compareMetric(cell, region + key, value, metricValue(after, key), limitFor(baseline_.tolerance[i].second, value));
-    }
+  void compareMetrics(const std::string& cell, const std::string& scope, const std::string& region,
+                      const GatedMetrics& before, const Metrics& after) {
+    for (const auto& [key, value] : before)
+      compareMetric(cell, region + key, value, metricValue(after, key), levelsOf(baseline_, scope, key));
   }
 
   void compareMetric(const std::string& cell, const std::string& quantity, const std::optional<double>& before,
-                     const std::optional<double>& after, double limit) {
+                     const std::optional<double>& after, const MetricLevels& levels) {
     ++report_.metricsCompared;
-    if (isWithin(before, after, limit)) return;
-    const bool finite = before && after && std::isfinite(*before) && std::isfinite(*after);
-    const double excess = finite ? excessOf(std::abs(*after - *before), limit) : kInfinity;
-    report_.findings.push_back({FindingKind::changed, cell, quantity, before, after, limit, excess});
+    const auto find = [&](const Tolerance& tolerance, Level level) {
+      const double limit = limitFor(tolerance, before);
+      if (isWithin(before, after, limit)) return false;
+      const bool finite = before && after && std::isfinite(*before) && std::isfinite(*after);
+      const double excess = finite ? excessOf(std::abs(*after - *before), limit) : kInfinity;
+      report_.findings.push_back({FindingKind::changed, cell, quantity, before, after, limit, excess, level});
+      return true;
+    };
+    if (!find(levels.fail, Level::fail) && levels.warn != nullptr) find(*levels.warn, Level::warn);
   }
 
   // Those of the baseline: programs learn to count more.
@@ -141,54 +164,11 @@ class Comparison {
     }
   }
 
-  std::map<std::string, const CostResult*> costsOfRun() const {
-    std::map<std::string, const CostResult*> costs;
-    for (const CellResult& cell : run_.cells)
-      if (cell.cost) costs.emplace(sequenceKeyOf(cell), &*cell.cost);
-    return costs;
-  }
-
-  // Why ratios of run and baseline can't be compared; empty if they can.
-  std::string costObstacle(bool measured) const {
-    const Provenance &now = run_.provenance, &old = baseline_.provenance;
-    if (baseline_.costs.empty()) return measured ? "the baseline holds none" : "neither side measured it";
-    if (!measured) return "this run did not measure it";
-    if (!sameDriver(now, old)) return "the GL driver differs";
-    if (now.cpu != old.cpu) return fmt::format("the CPU is '{}', was '{}'", now.cpu, old.cpu);
-    if (now.threads != old.threads) return fmt::format("threads are {}, were {}", now.threads, old.threads);
-    return "";
-  }
-
-  void compareCosts() {
-    const std::map<std::string, const CostResult*> costs = costsOfRun();
-    if (const std::string obstacle = costObstacle(!costs.empty()); !obstacle.empty())
-      return report_.notes.push_back(fmt::format("Cost was not compared: {}.", obstacle));
-    std::set<std::string> sequences;  // those that the run lacks altogether are found as missing cells
-    for (const CellResult& cell : run_.cells) sequences.insert(sequenceKeyOf(cell));
-    for (const auto& [key, before] : baseline_.costs) {
-      const std::string sequence = shortKey(key, defaults_);
-      if (const auto found = costs.find(sequence); found != costs.end())
-        compareCost(sequence, before, *found->second);
-      else if (sequences.contains(sequence))
-        report_.findings.push_back(makeFinding(FindingKind::missing, sequence, "cost"));
-    }
-  }
-
-  void compareCost(const std::string& sequence, const BaselineCost& before, const CostResult& after) {
-    ++report_.costsCompared;
-    const double limit = costLimit(before.ratio, after);
-    const double delta = std::abs(after.ratio - before.ratio);
-    const bool overlap = after.ratioLow <= before.ratioHigh && before.ratioLow <= after.ratioHigh;
-    if (overlap || delta <= limit) return;
-    report_.findings.push_back(
-        {FindingKind::cost, sequence, "cost ratio", before.ratio, after.ratio, limit, excessOf(delta, limit)});
-  }
-
-  // As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline.
-  static double costLimit(double before, const CostResult& after) {
-    const double relative = after.ratio > before ? kCostRelativeFloor : kCostRelativeFloor / (1 + kCostRelativeFloor);
-    const double absolute = after.plainMs > 0 ? kCostAbsoluteFloorMs / after.plainMs : kInfinity;
-    return std::max(relative * before, absolute);
+  void addCosts() {
+    CostFindings costs = compareCosts(run_, baseline_, defaults_, rerun_);
+    report_.costsCompared = costs.compared;
+    std::ranges::move(costs.findings, std::back_inserter(report_.findings));
+    std::ranges::move(costs.notes, std::back_inserter(report_.notes));
   }
 
   // The stricter of both sides: like a loosened tolerance, a loosened max_noise does not pass unnoticed.
@@ -213,12 +193,11 @@ class Comparison {
 
   void noteDifferences() {
     const Provenance &now = run_.provenance, &old = baseline_.provenance;
-    report_.sameDriver = sameDriver(now, old);
-    if (!report_.sameDriver)
+    const std::vector<PlatformDifference> platform = platformDifferences(old, now);
+    report_.samePlatform = platform.empty();
+    if (!report_.samePlatform)
       report_.notes.push_back(
-          fmt::format("Drift: counters were not compared, the baseline was made with '{}' ({}), "
-                      "this run with '{}' ({}).",
-                      old.glRenderer, old.glVersion, now.glRenderer, now.glVersion));
+          fmt::format("Drift: {}.{}", describe(platform), sameDriver(now, old) ? "" : " Counters were not compared."));
     if (!newCounters_.empty())
       report_.notes.push_back(
           fmt::format("Counters that the baseline lacks were not compared: {}.", fmt::join(newCounters_, ", ")));
@@ -228,20 +207,25 @@ class Comparison {
         report_.notes.push_back(fmt::format("The content of scene '{}' has changed since the baseline.", scene));
   }
 
-  // A metric out of its tolerance fails against any reference and on any driver. Against a noisy reference agreement
-  // proves nothing; on another driver the exact half of the gate is missing.
+  // A metric out of its tolerance fails against any reference. Against a noisy one agreement proves nothing; on another
+  // platform a difference need not come from the code.
   void conclude() {
-    std::ranges::stable_sort(report_.findings, std::ranges::greater{}, &Finding::excess);
-    if (!report_.findings.empty())
+    for (Finding& finding : report_.findings)
+      if (!report_.samePlatform && isOfPlatform(finding)) finding.level = Level::drift;
+    std::ranges::stable_sort(report_.findings, [](const Finding& a, const Finding& b) {
+      return a.level != b.level ? a.level < b.level : a.excess > b.excess;
+    });
+    if (report_.count(Level::fail) > 0)
       report_.verdict = Verdict::fail;
-    else if (!report_.noisyCells.empty())
+    else if (!report_.noisyCells.empty() || report_.count(Level::unconfirmed) > 0)
       report_.verdict = Verdict::inconclusive;
-    else if (!report_.sameDriver)
+    else if (!report_.samePlatform)
       report_.verdict = Verdict::drift;
   }
 
   const Results& run_;
   const Baseline& baseline_;
+  const Results* rerun_;
   const AxisValues defaults_;
   std::map<std::string, const CellResult*> runCells_;  // by shortKey()
   std::set<std::string> newCounters_;                  // that the baseline lacks
@@ -250,8 +234,19 @@ class Comparison {
 
 }  // namespace
 
-GateReport check(const Results& run, const Baseline& baseline, const AxisValues& defaults) {
-  return Comparison(run, baseline, defaults).make();
+std::size_t GateReport::count(Level level) const {
+  return static_cast<std::size_t>(std::ranges::count(findings, level, &Finding::level));
+}
+
+std::vector<std::string> GateReport::unconfirmedCosts() const {
+  std::vector<std::string> sequences;
+  for (const Finding& finding : findings)
+    if (finding.level == Level::unconfirmed) sequences.push_back(finding.cell);
+  return sequences;
+}
+
+GateReport check(const Results& run, const Baseline& baseline, const AxisValues& defaults, const Results* rerun) {
+  return Comparison(run, baseline, defaults, rerun).make();
 }
 
 int exitCode(Verdict verdict) {

@@ -7,6 +7,7 @@
 
 #include "bench/axes.h"
 #include "bench/metrics/metrics.h"
+#include "bench/suite_tolerance.h"
 #include "bench/toml_reader.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
@@ -24,7 +25,6 @@ constexpr int kMaxFrame = 1'000'000;
 constexpr std::size_t kMaxFrames = 10'000;  // a scene
 constexpr int kMaxDepth = 64;
 constexpr double kMaxStops = 32;
-constexpr double kMaxTolerance = 1e9;
 
 ImageSettings readImage(TomlReader& suite) {
   ImageSettings image;
@@ -222,7 +222,8 @@ std::string sceneReference(const std::string& use, const SceneOptions& options, 
   return printSpec(spec);
 }
 
-SuiteScene readScene(const toml::table& table, const std::string& file, const std::string& folder) {
+SuiteScene readScene(const toml::table& table, const std::string& file, const std::string& folder,
+                     const ToleranceLevels& tolerance) {
   TomlReader reader(table, file, "a [[scene]]");
   SuiteScene scene;
   const toml::node& use = reader.require("use");
@@ -236,16 +237,17 @@ SuiteScene readScene(const toml::table& table, const std::string& file, const st
   if (const auto warmup = reader.integer("warmup", 0, 1000)) scene.warmup = static_cast<int>(*warmup);
   scene.camera = reader.text("camera").value_or("");
   scene.vary = readAxes(reader, "vary");
+  scene.tolerance = readSceneTolerances(reader, tolerance);
   scene.exposure = reader.number("exposure", -kMaxStops, kMaxStops).value_or(0);
   reader.finish();
   return scene;
 }
 
-std::vector<SuiteScene> readScenes(TomlReader& suite, const std::string& folder) {
+std::vector<SuiteScene> readScenes(TomlReader& suite, const std::string& folder, const ToleranceLevels& tolerance) {
   const toml::node& node = suite.require("scene");
   std::vector<SuiteScene> scenes;
   for (const toml::node& scene : asArray(node, "scene", suite.file())) {
-    scenes.push_back(readScene(asTable(scene, "scene", suite.file()), suite.file(), folder));
+    scenes.push_back(readScene(asTable(scene, "scene", suite.file()), suite.file(), folder, tolerance));
     const auto same = [&](const SuiteScene& s) {
       return s.name == scenes.back().name && s.camera == scenes.back().camera;
     };
@@ -255,48 +257,6 @@ std::vector<SuiteScene> readScenes(TomlReader& suite, const std::string& folder)
   }
   if (scenes.empty()) throwInputError("{}: the suite needs at least one [[scene]]", placeOf(suite.file(), node));
   return scenes;
-}
-
-Tolerance readTolerance(const toml::node& node, const std::string& key, const std::string& file);
-
-Tolerance readToleranceTree(Tolerance::Kind kind, const toml::node& node, const std::string& key,
-                            const std::string& file) {
-  Tolerance tolerance;
-  tolerance.kind = kind;
-  for (const toml::node& child : asArray(node, key, file))
-    tolerance.children.push_back(readTolerance(child, key, file));
-  if (tolerance.children.empty()) throwInputError("{}: '{}' has an empty list", placeOf(file, node), key);
-  return tolerance;
-}
-
-Tolerance readTolerance(const toml::node& node, const std::string& key, const std::string& file) {
-  TomlReader reader(asTable(node, key, file), file, fmt::format("the tolerance of '{}'", key));
-  Tolerance tolerance;
-  if (const toml::node* any = reader.find("any")) {
-    tolerance = readToleranceTree(Tolerance::Kind::any, *any, key, file);
-  } else if (const toml::node* all = reader.find("all")) {
-    tolerance = readToleranceTree(Tolerance::Kind::all, *all, key, file);
-  } else {
-    const std::optional<double> relative = reader.number("relative", 0, kMaxTolerance);
-    const std::optional<double> absolute = reader.number("absolute", 0, kMaxTolerance);
-    if (!relative && !absolute)
-      throwInputError("{}: the tolerance of '{}' wants relative, absolute, any or all", placeOf(file, node), key);
-    tolerance.relative = relative.value_or(0);
-    tolerance.absolute = absolute.value_or(0);
-  }
-  reader.finish();
-  return tolerance;
-}
-
-Tolerances readTolerances(TomlReader& suite) {
-  Tolerances tolerances;
-  std::optional<TomlReader> reader = suite.child("tolerance");
-  if (!reader) return tolerances;
-  for (const MetricInfo& metric : metricTable())
-    if (const toml::node* node = reader->find(metric.key))
-      tolerances.emplace_back(metric.key, readTolerance(*node, metric.key, suite.file()));
-  reader->finish();
-  return tolerances;
 }
 
 toml::table parseToml(const std::string& text, const std::string& place) {
@@ -344,10 +304,13 @@ Suite parseSuite(const std::string& toml, const std::string& place, const std::s
   suite.reference = readReference(reader);
   suite.cost = readCost(reader);
   suite.technique = readTechnique(reader);
-  suite.scenes = readScenes(reader, folder);
+  ToleranceLevels tolerance = readSuiteTolerances(reader);
+  suite.scenes = readScenes(reader, folder, tolerance);
   suite.grid = readAxes(reader, "grid");
   suite.externals = readExternalTechniques(reader, folder);
-  suite.tolerance = readTolerances(reader);
+  suite.attribution = readAttribution(reader);
+  suite.tolerance = std::move(tolerance.fail);
+  suite.warnTolerance = std::move(tolerance.warn);
   reader.finish();
   return suite;
 }
@@ -365,6 +328,13 @@ std::vector<std::string> shippedSuites() {
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::ranges::sort(names);
   return names;
+}
+
+SceneTolerances sceneTolerancesOf(const Suite& suite) {
+  SceneTolerances tolerances;
+  for (const SuiteScene& scene : suite.scenes)
+    if (scene.tolerance != ToleranceLevels()) tolerances[toleranceScope(scene.name, scene.camera)] = scene.tolerance;
+  return tolerances;
 }
 
 void setGridAxis(Suite& suite, GridAxis axis) {
@@ -400,7 +370,7 @@ std::string canonicalText(const Suite& suite) {
       text += fmt::format("vary {} {} = {}\n", scene.name, axis, fmt::join(values, ","));
   for (const auto& [axis, values] : suite.grid) text += fmt::format("grid {} = {}\n", axis, fmt::join(values, ","));
   for (const ExternalTechnique& external : suite.externals) text += fmt::format("external {}\n", external.canonical);
-  return text;
+  return text + canonicalText(suite.attribution);
 }
 
 std::pair<int, int> parseSize(std::string_view text) {

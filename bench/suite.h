@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/external_technique.h"
+#include "bench/suite_attribution.h"
 #include "bench/tolerance.h"
 #include "raster/technique.h"
 #include "reference/renderer.h"
@@ -23,6 +24,7 @@ struct SuiteScene {
   std::optional<int> warmup;      // frames rendered before the first measured one; none: from frame 0 on
   std::string camera;             // empty: the scene's first
   double exposure = 0;            // stops, for LDR-FLIP, PSNR and SSIM
+  ToleranceLevels tolerance;      // in place of the suite's
   std::vector<GridAxis> vary;     // beside the grid: each of these values for itself, on top of each of its techniques
 
   // The frame at which a sequence starts; frames before 0 show frame 0.
@@ -67,7 +69,9 @@ struct Suite {
   std::vector<SuiteScene> scenes;
   std::vector<GridAxis> grid;                // in the order of the axis table
   std::vector<ExternalTechnique> externals;  // of other programs, each once on every scene
+  std::optional<AttributionSettings> attribution;  // none: not wanted
   Tolerances tolerance;
+  Tolerances warnTolerance;
 };
 
 // Parses TOML; `place` names the file in messages, and scene paths are relative to `folder`. Throws input Errors of the
@@ -79,6 +83,9 @@ Suite loadSuite(const std::string& fileOrName);
 
 // Names of the shipped suites.
 std::vector<std::string> shippedSuites();
+
+// Those of the scenes that have their own, by toleranceScope(); for scenes whose cameras are named.
+SceneTolerances sceneTolerancesOf(const Suite& suite);
 
 // Puts a grid axis in the place of the suite's, wherever it had one.
 void setGridAxis(Suite& suite, GridAxis axis);

@@ -54,9 +54,9 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& globals) {
 
 void addCommands(CLI::App& app, const GlobalOptions& globals, Action& action) {
   constexpr void (*kCommands[])(CLI::App&, const GlobalOptions&, Action&) = {
-      addRunCommand,   addRenderCommand, addCompareCommand, addReportCommand, addCheckCommand,
-      addBlessCommand, addMergeCommand,  addAxesCommand,    addScenesCommand, addCertifyCommand,
-      addRecommendCommand};
+      addRunCommand,       addRenderCommand, addCompareCommand,     addReportCommand, addCheckCommand,
+      addBlessCommand,     addMergeCommand,  addAxesCommand,        addScenesCommand, addCertifyCommand,
+      addRecommendCommand, addInitCommand,   addSelftestGateCommand};
   for (const auto& add : kCommands) add(app, globals, action);
 }
 

@@ -35,12 +35,14 @@ void addBlessCommand(CLI::App& app, const GlobalOptions& globals, Action& action
 void addCertifyCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addCheckCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addCompareCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
+void addInitCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addMergeCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addRecommendCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addReportCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addScenesCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
+void addSelftestGateCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 
 // One line a row, names padded to one width.
 std::string printList(const std::vector<std::pair<std::string, std::string>>& rows);

@@ -7,6 +7,7 @@
 
 #include "bench/axes.h"
 #include "bench/commands/commands.h"
+#include "bench/remeasure.h"
 #include "bench/report.h"
 #include "scenes/files.h"
 
@@ -14,17 +15,34 @@ namespace pb {
 namespace {
 
 struct GateOptions {
-  std::string run, baseline, junit, reason;
+  std::string run, baseline, junit, reason, confirm, rerun, annotations;
   bool json = false, force = false;
 };
 
-int checkRun(const GateOptions& options) {
+// Costs that changed are measured again where the options say how.
+GateReport checkAgain(const GateOptions& options, const Results& run, const Baseline& baseline,
+                      const GlobalOptions& globals) {
+  const AxisValues defaults = describe(Technique{});
+  if (!options.confirm.empty()) {
+    const Results rerun = readResults(options.confirm);
+    return check(run, baseline, defaults, &rerun);
+  }
+  const GateReport first = check(run, baseline, defaults);
+  const std::vector<std::string> changed = first.unconfirmedCosts();
+  if (options.rerun.empty() || changed.empty()) return first;
+  const Results rerun = remeasureRun(run, options.rerun, changed, globals.backend(), globals.threadCount());
+  return check(run, baseline, defaults, &rerun);
+}
+
+int checkRun(const GateOptions& options, const GlobalOptions& globals) {
   const Results run = readResults(options.run);
-  const GateReport report = check(run, readBaseline(options.baseline), describe(Technique{}));
+  const GateReport report = checkAgain(options, run, readBaseline(options.baseline), globals);
   if (!options.junit.empty()) writeFileAtomically(options.junit, toJUnit(report, run.provenance.suiteName));
-  const std::string blessCommand =
-      fmt::format("probebench bless {} --baseline {} --reason TEXT", options.run, options.baseline);
-  fmt::print("{}", options.json ? toJson(report) : printGateReport(report, blessCommand));
+  const std::string files = fmt::format("{} --baseline {}", options.run, options.baseline);
+  const GateCommands commands{fmt::format("probebench bless {} --reason TEXT", files),
+                              fmt::format("probebench check {} --rerun SUITE", files)};
+  fmt::print("{}", options.json ? toJson(report) : printGateReport(report, commands));
+  if (options.annotations == "github") fmt::print("\n{}", toGitHubAnnotations(report));
   return exitCode(report.verdict);
 }
 
@@ -41,13 +59,21 @@ void addRunAndBaseline(CLI::App& command, GateOptions& options) {
 
 }  // namespace
 
-void addCheckCommand(CLI::App& app, const GlobalOptions&, Action& action) {
+void addCheckCommand(CLI::App& app, const GlobalOptions& globals, Action& action) {
   CLI::App* command = app.add_subcommand("check", "compare a run with a stored baseline");
   const auto options = std::make_shared<GateOptions>();
   addRunAndBaseline(*command, *options);
+  CLI::Option* confirm = command->add_option("--confirm", options->confirm,
+                                             "folder of a second run: costs count as changed if they are there too");
+  command->add_option("--rerun", options->rerun, "the run's suite: costs that changed are measured once more")
+      ->excludes(confirm);
   command->add_option("--junit", options->junit, "write a JUnit XML file");
-  command->add_flag("--json", options->json, "print one JSON object");
-  command->callback([&action, options] { action = [options] { return checkRun(*options); }; });
+  CLI::Option* json = command->add_flag("--json", options->json, "print one JSON object");
+  command->add_option("--annotations", options->annotations, "also print findings for a service: github")
+      ->check(CLI::IsMember({"github"}))
+      ->excludes(json);
+  command->callback(
+      [&action, &globals, options] { action = [&globals, options] { return checkRun(*options, globals); }; });
 }
 
 void addBlessCommand(CLI::App& app, const GlobalOptions&, Action& action) {
@@ -56,7 +82,7 @@ void addBlessCommand(CLI::App& app, const GlobalOptions&, Action& action) {
   addRunAndBaseline(*command, *options);
   command->add_option("--reason", options->reason, "why the numbers may change; stored")->required();
   command->add_flag("--force", options->force,
-                    "also over a baseline of another GL driver, and with references noisier than max_noise");
+                    "also over a baseline of another platform, and with references noisier than max_noise");
   command->callback([&action, options] { action = [options] { return blessRun(*options); }; });
 }
 

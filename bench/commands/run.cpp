@@ -11,8 +11,10 @@
 #include "bench/commands/commands.h"
 #include "bench/plan.h"
 #include "bench/provenance.h"
+#include "bench/recommend.h"
 #include "bench/report.h"
 #include "bench/runner.h"
+#include "bench/shell_word.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -47,6 +49,15 @@ void printWarnings(const Scenes& scenes) {
     for (const std::string& warning : scene->warnings) fmt::print(stderr, "warning: {}: {}\n", scene->name, warning);
 }
 
+// What `recommend` starts its commands with: everything of the command line that decides the numbers.
+std::string commandOf(const RunOptions& options) {
+  std::string text = "probebench run " + shellWord(options.suite);
+  for (const std::string& scene : options.scenes) text += " --scene " + shellWord(scene);
+  for (const std::string& setting : options.settings) text += " --set " + shellWord(setting);
+  if (options.noCost) text += " --no-cost";
+  return text;
+}
+
 // The suite's numbers mean nothing if the two renderers disagree where nothing is approximated.
 std::string passControl(RasterDevice& device, Progress& progress) {
   progress.begin("control", 1);
@@ -59,7 +70,8 @@ std::string passControl(RasterDevice& device, Progress& progress) {
 
 int finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& suite, RunDirectory& directory) {
   for (const auto& [what, why] : outcome.skipped) provenance.settings.emplace_back(what, "skipped: " + why);
-  const Results results{std::move(provenance), suite.tolerance, outcome.cells};
+  const Results results{std::move(provenance), suite.tolerance,          outcome.cells,
+                        suite.warnTolerance,   sceneTolerancesOf(suite), outcome.attribution};
   directory.finish(results, outcome.benchmarkJson);
   fmt::print("{}", makeReport(results, describe(Technique())));
   fmt::print(stderr, "report: {}\n", (directory.folder() / "report.md").string());
@@ -89,6 +101,7 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   // Last, as it removes an earlier run.
   RunDirectory directory(options.output.empty() ? "out/" + suite.name : options.output,
                          {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
+  provenance.settings.emplace_back(kCommandSetting, commandOf(options));
   const RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
   return finishRun(outcome, std::move(provenance), suite, directory);
 }

@@ -1,0 +1,118 @@
+#include "bench/selftest_gate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "bench/certify.h"
+#include "bench/commands/commands.h"
+#include "bench/platform.h"
+#include "bench/provenance.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPlantedEnergy = 0.01;
+
+struct SelftestOptions {
+  std::string suite = "gate", baseline, store;
+  int repeats = 1;
+  bool noFaults = false;
+};
+
+// Of the source tree, or of the installation beside the program.
+std::string shippedBaseline(const std::string& suite) {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path installed = program.parent_path().parent_path() / "share" / "probebench" / "baselines";
+  const fs::path folder = fs::is_directory(installed) ? installed : fs::path(PROBEBENCH_BASELINES_DIR);
+  return (folder / (suite + ".json")).string();
+}
+
+// Removed with everything in it.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "probebench-selftest-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throwEnvironmentError("a folder for runs can't be made: '{}'", name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// On another platform the gate drifts and catches nothing.
+void requireSamePlatform(const Baseline& baseline, const Provenance& now, const std::string& path) {
+  const std::vector<PlatformDifference> differences = platformDifferences(baseline.provenance, now);
+  if (!differences.empty())
+    throw Error(Failure::inconclusive,
+                fmt::format("baseline '{}' is of another platform: {}; bless a run of the suite here and give it to "
+                            "--baseline",
+                            path, describe(differences)));
+}
+
+bool catchFaults(const GateSelftest& selftest) {
+  std::vector<FaultOutcome> outcomes;
+  for (const NamedFault& fault : plantedFaults()) {
+    fmt::print(stderr, "planted: {}\n", fault.name);
+    outcomes.push_back(selftest.plant(fault));
+  }
+  const bool all = std::ranges::all_of(outcomes, &FaultOutcome::isCaught);
+  const double smallest = all ? selftest.smallestCaughtEnergy(kPlantedEnergy) : 0.0;
+  fmt::print("{}\n", printFaults(outcomes, smallest));
+  return all;
+}
+
+int runSelftest(const SelftestOptions& options, const GlobalOptions& globals) {
+  Suite suite = loadSuite(options.suite);
+  const Scenes scenes = loadScenes(suite);
+  const std::string baselinePath = options.baseline.empty() ? shippedBaseline(suite.name) : options.baseline;
+  const Baseline baseline = readBaseline(baselinePath);
+  RasterDevice device(globals.backend());
+  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
+  requireSamePlatform(baseline, provenance, baselinePath);
+  provenance.controlOutcome = summary(runControl(device));
+  const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : fs::path(options.store));
+  const ScratchFolder scratch;
+  Progress progress;
+  const SelftestContext context{suite, scenes, device, store, baseline, provenance, scratch.path(), progress};
+  const GateSelftest selftest(context);
+  const RepeatOutcome repeats =
+      selftest.repeat(options.repeats, [&](int run) { fmt::print(stderr, "unchanged run {} done\n", run); });
+  fmt::print("{}\n", printRepeats(repeats));
+  std::fflush(stdout);
+  const bool caught = options.noFaults || catchFaults(selftest);
+  return caught && repeats.isQuiet() ? 0 : static_cast<int>(Failure::verdict);
+}
+
+}  // namespace
+
+void addSelftestGateCommand(CLI::App& app, const GlobalOptions& globals, Action& action) {
+  CLI::App* command = app.add_subcommand("selftest-gate", "plant faults and see whether the gate catches them");
+  const auto options = std::make_shared<SelftestOptions>();
+  command->add_option("--suite", options->suite, "a .toml file or the name of a shipped suite")->capture_default_str();
+  command->add_option("--baseline", options->baseline, "baseline file (default: the shipped one of the suite)");
+  command->add_option("--store", options->store, "folder of stored references");
+  command->add_option("--repeats", options->repeats, "unchanged runs, which must raise no alarm")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_flag("--no-faults", options->noFaults, "the unchanged runs only");
+  command->callback(
+      [&action, &globals, options] { action = [&globals, options] { return runSelftest(*options, globals); }; });
+}
+
+}  // namespace pb

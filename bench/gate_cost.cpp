@@ -1,0 +1,168 @@
+#include "bench/gate_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "bench/platform.h"
+#include "bench/significance.h"
+#include "scenes/error.h"
+
+namespace pb {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using Costs = std::map<std::string, const CostResult*>;  // by sequence
+
+RatioSample sampleOf(const BaselineCost& cost) { return {cost.ratio, cost.ratioLow, cost.ratioHigh, cost.ratios}; }
+RatioSample sampleOf(const CostResult& cost) { return {cost.ratio, cost.ratioLow, cost.ratioHigh, cost.ratios}; }
+
+// As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline.
+double limitOf(double before, const CostResult& after) {
+  const double relative = after.ratio > before ? kCostRelativeFloor : kCostRelativeFloor / (1 + kCostRelativeFloor);
+  const double absolute = after.plainMs > 0 ? kCostAbsoluteFloorMs / after.plainMs : kInfinity;
+  return std::max(relative * before, absolute);
+}
+
+bool isAboveFloors(const BaselineCost& before, const CostResult& after) {
+  return std::abs(after.ratio - before.ratio) > limitOf(before.ratio, after);
+}
+
+// What was measured on both sides.
+struct Pair {
+  std::string sequence;
+  const BaselineCost* before;
+  const CostResult* after;
+};
+
+// Those above the floors that are significant among all.
+std::vector<Pair> changedAmong(const std::vector<Pair>& pairs) {
+  std::vector<double> probabilities;
+  for (const auto& [sequence, before, after] : pairs)
+    // Below the floors nothing is a finding; 1 never makes another comparison more significant.
+    probabilities.push_back(isAboveFloors(*before, *after) ? equalCostProbability(sampleOf(*before), sampleOf(*after))
+                                                           : 1.0);
+  const std::vector<double> adjusted = holmAdjusted(probabilities);
+  std::vector<Pair> changed;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (adjusted[i] < kCostSignificance) changed.push_back(pairs[i]);
+  return changed;
+}
+
+class CostComparison {
+ public:
+  CostComparison(const Results& run, const Baseline& baseline, const AxisValues& defaults, const Results* rerun)
+      : run_(run), baseline_(baseline), defaults_(defaults), costs_(costsOf(run)) {
+    if (rerun == nullptr) return;
+    requireRerun(*rerun);
+    rerun_ = costsOf(*rerun);
+  }
+
+  CostFindings make() {
+    if (const std::string obstacle = findObstacle(); !obstacle.empty()) {
+      found_.notes.push_back(fmt::format("Cost was not compared: {}.", obstacle));
+      return std::move(found_);
+    }
+    const std::vector<Pair> pairs = pairUp();
+    found_.compared = pairs.size();
+    const std::vector<Pair> changed = changedAmong(pairs);
+    const std::set<std::string> confirmed = findConfirmed(changed);
+    for (const Pair& pair : changed) report(pair, confirmed.contains(pair.sequence));
+    return std::move(found_);
+  }
+
+ private:
+  std::string keyOf(const CellResult& cell) const { return shortKey(cell.sequenceKey(), defaults_); }
+
+  Costs costsOf(const Results& results) const {
+    Costs costs;
+    for (const CellResult& cell : results.cells)
+      if (cell.cost) costs.emplace(keyOf(cell), &*cell.cost);
+    return costs;
+  }
+
+  void requireRerun(const Results& rerun) const {
+    const Provenance &first = run_.provenance, &second = rerun.provenance;
+    if (first.toolVersion != second.toolVersion || first.gitHash != second.gitHash ||
+        first.suiteHash != second.suiteHash)
+      throwInputError(
+          "the second measurement must be of the same suite by the same program, it is of suite '{}' by {} {}",
+          second.suiteName, second.toolVersion, second.gitHash);
+    if (!sameDriver(first, second) || first.cpu != second.cpu || first.threads != second.threads)
+      throwInputError(
+          "the second measurement must be made on the same driver and CPU with as many threads, it is of '{}'"
+          " on '{}' with {}",
+          second.glRenderer, second.cpu, second.threads);
+  }
+
+  // Why ratios of run and baseline can't be compared; empty if they can.
+  std::string findObstacle() const {
+    const Provenance &now = run_.provenance, &old = baseline_.provenance;
+    if (baseline_.costs.empty()) return costs_.empty() ? "neither side measured it" : "the baseline holds none";
+    if (costs_.empty()) return "this run did not measure it";
+    if (!sameDriver(now, old)) return "the GL driver differs";
+    if (now.cpu != old.cpu) return fmt::format("the CPU is '{}', was '{}'", now.cpu, old.cpu);
+    if (now.threads != old.threads) return fmt::format("threads are {}, were {}", now.threads, old.threads);
+    return "";
+  }
+
+  // Reports those that are missing for a sequence of which the run has cells.
+  std::vector<Pair> pairUp() {
+    std::set<std::string> sequences;
+    for (const CellResult& cell : run_.cells) sequences.insert(keyOf(cell));
+    std::vector<Pair> pairs;
+    for (const auto& [key, before] : baseline_.costs) {
+      const std::string sequence = shortKey(key, defaults_);
+      if (const auto after = costs_.find(sequence); after != costs_.end())
+        pairs.push_back({sequence, &before, after->second});
+      else if (sequences.contains(sequence))
+        found_.findings.push_back(
+            {FindingKind::missing, sequence, "cost", std::nullopt, std::nullopt, 0, kInfinity, Level::fail});
+    }
+    return pairs;
+  }
+
+  // Those that changed in the second measurement too, the same way.
+  std::set<std::string> findConfirmed(const std::vector<Pair>& changed) const {
+    std::vector<Pair> again;
+    for (const auto& [sequence, before, after] : changed)
+      if (const auto second = rerun_.find(sequence);
+          second != rerun_.end() && (second->second->ratio > before->ratio) == (after->ratio > before->ratio))
+        again.push_back({sequence, before, second->second});
+    std::set<std::string> confirmed;
+    for (const Pair& pair : changedAmong(again)) confirmed.insert(pair.sequence);
+    return confirmed;
+  }
+
+  void report(const Pair& pair, bool confirmed) {
+    const auto& [sequence, before, after] = pair;
+    if (const auto second = rerun_.find(sequence); !confirmed && second != rerun_.end()) {
+      found_.notes.push_back(
+          fmt::format("A second measurement did not confirm the cost ratio of {}: {:.3g}, then {:.3g}, "
+                      "in the baseline {:.3g}.",
+                      sequence, after->ratio, second->second->ratio, before->ratio));
+      return;
+    }
+    const double limit = limitOf(before->ratio, *after), delta = std::abs(after->ratio - before->ratio);
+    found_.findings.push_back({FindingKind::cost, sequence, "cost ratio", before->ratio, after->ratio, limit,
+                               limit > 0 ? delta / limit : kInfinity, confirmed ? Level::fail : Level::unconfirmed});
+  }
+
+  const Results& run_;
+  const Baseline& baseline_;
+  const AxisValues& defaults_;
+  Costs costs_, rerun_;
+  CostFindings found_;
+};
+
+}  // namespace
+
+CostFindings compareCosts(const Results& run, const Baseline& baseline, const AxisValues& defaults,
+                          const Results* rerun) {
+  return CostComparison(run, baseline, defaults, rerun).make();
+}
+
+}  // namespace pb
