@@ -19,6 +19,7 @@ namespace {
 struct ReportOptions {
   std::string run, other, output;
   bool brief = false;
+  double pageMb = kDefaultPageMb;
 };
 
 std::string pageOf(const std::string& folder) { return folder + "/report.html"; }
@@ -30,7 +31,7 @@ int reportRun(const ReportOptions& options) {
   fmt::print("{}", options.brief ? makeBrief(results, answer) : makeReport(results, defaults));
   if (options.output.empty()) return 0;
   writeReport(results, options.output, defaults);
-  writePage({{"", options.run, results}}, answer, pageOf(options.output));
+  writePage({{"", options.run, results}}, answer, pageOf(options.output), options.pageMb);
   fmt::print(stderr, "report: {}\n", pageOf(options.output));
   return 0;
 }
@@ -46,7 +47,7 @@ int reportChange(const ReportOptions& options) {
   writeFileAtomically(options.output + "/report.md", text);
   writeFileAtomically(options.output + "/report.csv", comparisonToCsv(before, after, defaults));
   writePage({{"before", options.run, before}, {"after", options.other, after}},
-            summaryLines(after, {options.other, defaults}), pageOf(options.output));
+            summaryLines(after, {options.other, defaults}), pageOf(options.output), options.pageMb);
   fmt::print(stderr, "report: {}\n", pageOf(options.output));
   return 0;
 }
@@ -60,6 +61,9 @@ void addReportCommand(CLI::App& app, const GlobalOptions&, Action& action) {
   command->add_option("OTHER", options->other, "folder of a later run: cell by cell, what changed from RUN_DIR to it");
   command->add_option("-o", options->output, "also write report.md, report.csv and the page report.html there");
   command->add_flag("--pull-request", options->brief, "print a few lines instead of all tables");
+  command->add_option("--page-mb", options->pageMb, "largest report.html; beyond it the pictures stand beside it")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   command->callback([&action, options] {
     action = [options] { return options->other.empty() ? reportRun(*options) : reportChange(*options); };
   });

@@ -19,9 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of base64 in the page itself: with 2 MB for results, scripts and charts a page stays below 15 MB.
-constexpr std::size_t kMaxInlineBytes = 11'000'000;
-
 std::string escapedHtml(const std::string& text) {
   std::string escaped;
   for (const char c : text) switch (c) {
@@ -103,9 +100,11 @@ class Blobs {
   std::size_t count_ = 0;
 };
 
-std::size_t bytesOf(const std::vector<PagePictures>& runs) {
-  std::size_t bytes = 0;
-  for (const PagePictures& run : runs)
+// Of the page with everything in it, but for some kilobytes.
+std::size_t pageBytes(const std::vector<std::string>& results, const std::vector<PagePictures>& pictures) {
+  std::size_t bytes = sizeof(kPageSource);
+  for (const std::string& text : results) bytes += text.size();
+  for (const PagePictures& run : pictures)
     for (const std::string& blob : run.blobs) bytes += blob.size();
   return bytes;
 }
@@ -130,19 +129,24 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 
 }  // namespace
 
-void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file) {
+void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file,
+               double maxMb) {
   std::vector<PagePictures> pictures;
-  for (const PageRun& run : runs) pictures.push_back(packPictures(run.results.cells, run.directory));
-  const bool beside = bytesOf(pictures) > kMaxInlineBytes;
+  std::vector<std::string> results;
+  for (const PageRun& run : runs) {
+    pictures.push_back(packPictures(run.results.cells, run.directory));
+    results.push_back(base64(deflate(toJson(run.results))));
+  }
+  const bool beside = static_cast<double>(pageBytes(results, pictures)) > 1e6 * maxMb;
 
   Blobs blobs(file);
   blobs.removeFolder();
   Json meta = {{"answer", answer}, {"beside", beside ? Json(blobs.folderName()) : Json()}, {"runs", Json::array()}};
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::size_t results = blobs.addInline(base64(deflate(toJson(runs[i].results))));
+    const std::size_t resultsBlob = blobs.addInline(results[i]);
     const std::size_t firstBlob = blobs.addPictures(pictures[i].blobs, beside);
     meta["runs"].push_back({{"name", runs[i].name},
-                            {"results", results},
+                            {"results", resultsBlob},
                             {"pictures", picturesToJson(pictures[i], firstBlob)},
                             {"missing", pictures[i].missing.size()}});
   }

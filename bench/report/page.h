@@ -15,9 +15,13 @@ struct PageRun {
   const Results& results;
 };
 
-// Writes `file`; pictures stand in the page up to some 11 MB, beyond that in a folder beside it ("report.html" ->
-// "report-pictures/"). The last run is the page's subject, one before it what it is compared with. `answer`: lines that
-// say what was found, may be empty. Throws environment Errors.
-void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file);
+inline constexpr double kDefaultPageMb = 15;
+
+// Writes `file`. Pictures with which it would be larger than maxMb (10^6 bytes) stand in a folder beside it
+// ("report.html"
+// -> "report-pictures/"). The last run is the page's subject, one before it what it is compared with. `answer`: lines
+// that say what was found, may be empty. Throws environment Errors.
+void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file,
+               double maxMb = kDefaultPageMb);
 
 }  // namespace pb
