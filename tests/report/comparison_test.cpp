@@ -1,0 +1,104 @@
+// Two runs compared: verdicts, cells that only one of them has, and what the reports say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/report/brief.h"
+#include "bench/report/comparison.h"
+
+namespace pb {
+namespace {
+
+using testing::HasSubstr;
+
+CellResult makeCell(const std::string& resolution, double error, std::optional<Interval> interval = std::nullopt) {
+  CellResult cell;
+  cell.scene = "builtin:mirrors";
+  cell.camera = "Camera";
+  cell.technique = {{"resolution", resolution}};
+  cell.metrics.sums.relmse = error;
+  if (interval) cell.intervals = {{"relmse", *interval}};
+  return cell;
+}
+
+Results makeRun(std::vector<CellResult> cells) {
+  Results results;
+  results.provenance.suiteName = "small";
+  results.cells = std::move(cells);
+  return results;
+}
+
+const ComparedValue& valueOf(const ComparedCell& cell, const std::string& name) {
+  return *std::ranges::find(cell.values, name, &ComparedValue::name);
+}
+
+Change changeOf(const CellResult& before, const CellResult& after, const std::string& name = "relmse") {
+  return valueOf(compareRuns(makeRun({before}), makeRun({after})).cells.at(0), name).change;
+}
+
+TEST(Comparison, IntervalsThatOverlap_AreNoChange) {
+  const CellResult before = makeCell("64", 1.0, Interval{0.9, 1.1});
+  EXPECT_EQ(changeOf(before, makeCell("64", 1.15, Interval{1.05, 1.25})), Change::equal);
+  EXPECT_EQ(changeOf(before, makeCell("64", 1.3, Interval{1.2, 1.4})), Change::worse);
+  EXPECT_EQ(changeOf(before, makeCell("64", 0.7, Interval{0.6, 0.8})), Change::better);
+}
+
+TEST(Comparison, WithoutIntervals_ADifferenceHasNoVerdict) {
+  EXPECT_EQ(changeOf(makeCell("64", 1.0), makeCell("64", 1.0)), Change::equal);
+  EXPECT_EQ(changeOf(makeCell("64", 1.0), makeCell("64", 1.0001)), Change::changed);
+  EXPECT_EQ(changeOf(makeCell("64", 1.0, Interval{0.9, 1.1}), makeCell("64", 2.0)), Change::changed);
+}
+
+TEST(Comparison, OfCosts_UsesTheirIntervals) {
+  const auto withCost = [](double ms, double low, double high) {
+    CellResult cell = makeCell("64", 1.0);
+    cell.cost = CostResult();
+    cell.cost->frameMs = ms;
+    cell.cost->frameMsLow = low;
+    cell.cost->frameMsHigh = high;
+    return cell;
+  };
+  EXPECT_EQ(changeOf(withCost(10, 9, 11), withCost(10.5, 9.5, 12), "frame_ms"), Change::equal);
+  EXPECT_EQ(changeOf(withCost(10, 9, 11), withCost(14, 13, 15), "frame_ms"), Change::worse);
+  EXPECT_EQ(changeOf(withCost(10, 9, 11), withCost(7, 6, 8), "frame_ms"), Change::better);
+}
+
+TEST(Comparison, CellsOfOneRunOnly_AreCounted) {
+  const Comparison comparison = compareRuns(makeRun({makeCell("64", 1), makeCell("128", 1), makeCell("256", 1)}),
+                                            makeRun({makeCell("128", 2), makeCell("512", 1)}));
+  ASSERT_EQ(comparison.cells.size(), 1u);
+  EXPECT_EQ(comparison.cells[0].before, 1u);
+  EXPECT_EQ(comparison.cells[0].after, 0u);
+  EXPECT_EQ(comparison.onlyBefore, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(comparison.onlyAfter, (std::vector<std::size_t>{1}));
+}
+
+TEST(Comparison, Report_NamesWhatChangedMostAndWhatDiffersAround) {
+  Results before = makeRun({makeCell("64", 1.0), makeCell("128", 2.0)});
+  Results after = makeRun({makeCell("64", 1.1), makeCell("128", 4.0)});
+  before.provenance.cpu = "old";
+  after.provenance.cpu = "new";
+  const std::string text = makeComparisonReport(before, after, {});
+  EXPECT_THAT(text, HasSubstr("2 cells compared"));
+  EXPECT_THAT(text, HasSubstr("+100.0 %"));
+  EXPECT_LT(text.find("resolution=128"), text.find("resolution=64"));
+  EXPECT_THAT(text, HasSubstr("old, 0 threads"));
+  EXPECT_THAT(makeComparisonReport(before, before, {}), HasSubstr("Circumstances are the same."));
+  EXPECT_THAT(comparisonToCsv(before, after, {}),
+              HasSubstr("\"scene=builtin:mirrors camera=Camera frame=0 resolution=128\",relmse,2,4,2,changed\n"));
+}
+
+TEST(Comparison, NamesWithQuotes_StayOneFieldOfCsv) {
+  CellResult cell = makeCell("64", 1.0);
+  cell.scene = "a \"b\", c";
+  const std::string csv = comparisonToCsv(makeRun({cell}), makeRun({cell}), {});
+  EXPECT_THAT(csv, HasSubstr("\"scene=a \"\"b\"\", c camera=Camera frame=0 resolution=64\",relmse,1,1,0,equal\n"));
+}
+
+TEST(Brief, HasTheAnswerAndALineAScene) {
+  const std::string text = makeBrief(makeRun({makeCell("64", 1.0), makeCell("128", 2.0)}), {"It is the bounces."});
+  EXPECT_THAT(text, HasSubstr("- It is the bounces.\n"));
+  EXPECT_THAT(text, HasSubstr("| builtin:mirrors"));
+}
+
+}  // namespace
+}  // namespace pb
