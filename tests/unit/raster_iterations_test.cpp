@@ -136,6 +136,17 @@ TEST_P(RasterIterations, CoatsOfSurfacesWithoutProbesAreTheSame) {
   }
 }
 
+TEST_P(RasterIterations, MirrorsAndGlassWithoutProbesAreTheSame) {
+  for (const Material& material : {makeMirrorMaterial("mirror"), makeGlass(1.5f)})
+    for (const WithoutProbe shown : {WithoutProbe::nearestProbe, WithoutProbe::blendedProbes}) {
+      Scene scene = makeBallBetweenMirrors(material);
+      scene.nodes[static_cast<std::size_t>(scene.instances.front().node)].probe.emplace().enabled = false;
+      Technique technique = withBounces(3);
+      technique.withoutProbe = shown;
+      expectSame({snapshotOf(std::move(scene))}, technique);
+    }
+}
+
 TEST_P(RasterIterations, GlassIsTheSameWithEveryRefraction) {
   for (const Refraction refraction :
        {Refraction::oneInterface, Refraction::twoInterface, Refraction::cubemapBackface, Refraction::thickSlab}) {

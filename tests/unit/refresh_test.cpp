@@ -238,6 +238,45 @@ TEST(OnChange, CapturesTheFacesThatSeeAMirrorWhoseMapChanges) {
   EXPECT_THAT(due, testing::Not(testing::Contains(ProbeFace{0, kPlusZ})));
 }
 
+// Two probes 10 m apart, and a mirror without one: the first is nearer, the second sees the mirror at +Z and the first
+// one's owner at -X. What moves above is seen at +Y by both.
+Snapshot makeMirrorWithoutProbe() {
+  Snapshot snapshot = makeProbes(2);
+  snapshot.instances.push_back(snapshot.instances[0]);
+  snapshot.instances[3].probe = -1;
+  place(snapshot, 1, {10.0f, 0.0f, 0.0f});
+  place(snapshot, 2, {0.0f, 20.0f, 0.0f});
+  place(snapshot, 3, {4.0f, 0.0f, 8.0f});
+  findNearestProbes(snapshot);
+  return snapshot;
+}
+
+TEST(OnChange, CapturesTheFacesThatSeeAMirrorWithoutProbeIfItShowsAMapThatChanges) {
+  const Snapshot snapshot = makeMirrorWithoutProbe();
+  const auto moveAbove = [](Snapshot& s) { place(s, 2, {0.0f, 21.0f, 0.0f}); };
+  const auto dueWith = [&](WithoutProbe shown) {
+    Technique technique;
+    technique.withoutProbe = shown;
+    return dueAfter(moveAbove, snapshot, technique);
+  };
+  EXPECT_THAT(dueWith(WithoutProbe::environment), testing::Not(testing::Contains(ProbeFace{1, kPlusZ})));
+  EXPECT_THAT(dueWith(WithoutProbe::nearestProbe), testing::Contains(ProbeFace{1, kPlusZ}));
+  EXPECT_THAT(dueWith(WithoutProbe::blendedProbes), testing::Contains(ProbeFace{1, kPlusZ}));
+}
+
+TEST(OnChange, CapturesTheFacesThatSeeAMirrorWhoseNearestProbeBecomesAnother) {
+  const Snapshot snapshot = makeMirrorWithoutProbe();
+  const auto moveFirst = [](Snapshot& s) {
+    s.probes[0].position = {-100.0f, 0.0f, 0.0f};
+    findNearestProbes(s);
+  };
+  Technique technique;
+  technique.captureFar = 9.5f;  // the second probe sees the mirror, 7.75 m away, but not the first one's owner
+  EXPECT_EQ(std::ranges::count(dueAfter(moveFirst, snapshot, technique), 1, &ProbeFace::probe), 0);
+  technique.withoutProbe = WithoutProbe::nearestProbe;
+  EXPECT_THAT(dueAfter(moveFirst, snapshot, technique), testing::Contains(ProbeFace{1, kPlusZ}));
+}
+
 TEST(OnChange, DoesNotCaptureAProbeWhoseOwnerTurnsOnTheSpot) {
   const auto turnOwner = [](Snapshot& s) { s.instances[0].worldFromObject = turned(s.instances[0].worldFromObject); };
   EXPECT_THAT(dueAfter(turnOwner, makeProbes(1)), IsEmpty());
@@ -312,6 +351,24 @@ TEST(CameraVisible, CapturesWhatTheCameraSeesAsSoonAsItDoes) {
   EXPECT_EQ(std::ranges::count(due, 1, &ProbeFace::probe), 0);
   snapshot.camera = cubeFaceView({1.0f, 0.0f, 2.0f}, 5, 0.1f);
   EXPECT_THAT(dueFaces(parseSpec("camera-visible"), history, snapshot), SizeIs(12));
+}
+
+TEST(CameraVisible, CapturesTheProbeThatAMirrorWithoutOneShows) {
+  Snapshot snapshot = makeMirrorWithoutProbe();
+  snapshot.camera = cubeFaceView({4.0f, 0.0f, 10.0f}, 5, 0.1f);  // the mirror hides everything else
+  snapshot.camera.right *= 0.05f;
+  snapshot.camera.down *= 0.05f;
+  const auto capturedInLaterFrames = [&](WithoutProbe shown) {
+    RefreshHistory history;
+    history.technique.withoutProbe = shown;
+    const Spec policy = parseSpec("camera-visible");
+    advance(history, dueFaces(policy, history, snapshot), snapshot);
+    return dueFaces(policy, history, snapshot);
+  };
+  EXPECT_THAT(capturedInLaterFrames(WithoutProbe::environment), IsEmpty());
+  const std::vector<ProbeFace> due = capturedInLaterFrames(WithoutProbe::nearestProbe);
+  EXPECT_EQ(std::ranges::count(due, 0, &ProbeFace::probe), 6);
+  EXPECT_THAT(due, SizeIs(6));
 }
 
 TEST(CameraVisible, CapturesTheProbeNearestToACoatInView) {
