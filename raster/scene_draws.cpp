@@ -88,15 +88,21 @@ SurfaceVariant variantOf(const Technique& technique, const Snapshot& snapshot, c
   return variant;
 }
 
+// Levels of a second probe are read as those of the first. The nearest probe of an instance may become another one.
+int mapResolution(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance,
+                  const std::vector<int>& probeResolutions) {
+  const Reflection reflection = reflectionOf(technique, snapshot, instance);
+  return reflection.source == ReflectionSource::probe ? probeResolutions[static_cast<std::size_t>(reflection.probe)]
+                                                      : technique.resolution;
+}
+
 // Finds the programs of a snapshot's surfaces.
 class SurfacePrograms {
  public:
-  SurfacePrograms(Programs& programs, const Technique& technique, const Snapshot& snapshot, int environmentSize,
-                  const std::vector<int>& probeResolutions)
+  SurfacePrograms(Programs& programs, const Technique& technique, const Snapshot& snapshot, int environmentSize)
       : programs_(programs),
         technique_(technique),
         snapshot_(snapshot),
-        probeResolutions_(probeResolutions),
         source_(environmentSource(snapshot.environment(), technique.textureFilter)),
         settings_(techniqueDefines(technique) + clipDefines(technique)),
         environmentLevels_(filterDefines(technique.filter, environmentSize)),
@@ -111,7 +117,7 @@ class SurfacePrograms {
     const Reflection reflection = reflectionOf(technique_, snapshot_, instance);
     const std::string ofMaterial = settings_ + refractionDefines(technique_, material) + conductorDefines(material);
     const std::string defines = ofMaterial + lightDefines(snapshot_, true);
-    const std::string map = mapDefinesOf(reflection);
+    const std::string map = filterDefines(mapFilter(technique_), draw.mapResolution) + mapLookup_;
     const bool hasBackFaces = readsBackFaces(technique_, material);
     draw.shown = showing(draw.variant, reflection, defines, map, hasBackFaces);
     if (lookupOf(technique_.lookup).isPlanar && instance.probe >= 0)
@@ -131,14 +137,6 @@ class SurfacePrograms {
   }
 
  private:
-  // Levels of a second probe are read as those of the first.
-  std::string mapDefinesOf(const Reflection& reflection) const {
-    const bool hasProbe = reflection.source == ReflectionSource::probe;
-    const int resolution =
-        hasProbe ? probeResolutions_[static_cast<std::size_t>(reflection.probe)] : technique_.resolution;
-    return filterDefines(mapFilter(technique_), resolution) + mapLookup_;
-  }
-
   SurfaceDraw::Shown showing(const SurfaceVariant& variant, const Reflection& reflection, const std::string& defines,
                              const std::string& map, bool hasBackFaces) {
     SurfaceDraw::Shown shown;
@@ -160,7 +158,6 @@ class SurfacePrograms {
   Programs& programs_;
   const Technique& technique_;
   const Snapshot& snapshot_;
-  const std::vector<int>& probeResolutions_;
   const EnvironmentSource source_;
   const std::string settings_;
   const std::string environmentLevels_;
@@ -189,7 +186,8 @@ bool SceneDraws::fit(const Snapshot& snapshot, const std::vector<int>& probeReso
   return draws_.size() == snapshot.instances.size() && std::ranges::all_of(draws_, [&](const SurfaceDraw& draw) {
            const SnapshotInstance& instance = snapshot.instances[draw.instance];
            const bool deforms = draw.source->isDeformed && instance.mesh->isDeformed;
-           return (draw.source == instance.mesh || deforms) && draw.material == instance.material;
+           return (draw.source == instance.mesh || deforms) && draw.material == instance.material &&
+                  draw.mapResolution == mapResolution(technique_, snapshot, instance, probeResolutions);
          });
 }
 
@@ -197,7 +195,7 @@ bool SceneDraws::fit(const Snapshot& snapshot, const std::vector<int>& probeReso
 // order decides which of two coinciding surfaces is seen, and how many fragments pass.
 void SceneDraws::build(const Snapshot& snapshot, SceneResources& resources, const std::vector<int>& probeResolutions) {
   const int environmentSize = resources.filterEnvironment(technique_.filter, device_.programs);
-  SurfacePrograms programs(device_.programs, technique_, snapshot, environmentSize, probeResolutions);
+  SurfacePrograms programs(device_.programs, technique_, snapshot, environmentSize);
   background_ = device_.programs.background(programs.source());
   environment_ = snapshot.environmentIndex;
   resolutions_ = probeResolutions;
@@ -214,6 +212,7 @@ void SceneDraws::build(const Snapshot& snapshot, SceneResources& resources, cons
                       .cullsBackFaces = cullsBackFaces(material),
                       .isClosedGlass = isSolidGlass(material) && !material.doubleSided && isClosed(*instance.mesh),
                       .isCapturedFromInside = isCapturedFromInside(technique_, material),
+                      .mapResolution = mapResolution(technique_, snapshot, instance, probeResolutions),
                       .shown = {},
                       .captured = {}});
     programs.find(draws_.back());

@@ -20,6 +20,7 @@ struct SurfaceDraw {
   bool cullsBackFaces;
   bool isClosedGlass;         // its back faces are seen from inside only
   bool isCapturedFromInside;  // by its own probe
+  int mapResolution;          // texels along a face's edge of the map whose levels it reads
 
   // Programs by what the surface shows. 0: it never shows that.
   struct Shown {
