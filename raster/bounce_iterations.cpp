@@ -51,7 +51,7 @@ void BounceIterations::begin(const std::vector<ProbeFace>& due, std::size_t prob
     redoOf(f) = Redo::everything;
     states_[static_cast<std::size_t>(f.probe)] = MapState::unsettled;
   }
-  if (records_) records_->beginFrame();
+  if (records_) records_->beginFrame(scenePass_.lookupGroups());
 }
 
 // The maps that lookups see next are filtered as soon as they are published.
@@ -69,8 +69,9 @@ void BounceIterations::capture(const std::vector<ProbeFace>& faces, Run& run) {
   const std::vector<ProbeFace> repeated = facesTo(Redo::lookups, faces);
   std::vector<ProbeFace> changed = facesTo(Redo::everything, faces);
   const float largestRadiance = texelFormat(technique_.format).largestRadiance;
+  const auto bindMirror = [&](const LookupGroup& group) { scenePass_.bindMirror(group); };
   for (const auto& ofProbe : byProbe(repeated))
-    records_->repeat(ofProbe.front().probe, maps_, states_, largestRadiance, run.isLast);
+    records_->repeat(ofProbe.front().probe, maps_, states_, largestRadiance, run.isLast, bindMirror);
   for (const auto& ofProbe : byProbe(changed)) drawProbe(ofProbe, run);
   changed.insert(changed.end(), repeated.begin(), repeated.end());
   publish(changed, run);
@@ -99,7 +100,7 @@ void BounceIterations::drawProbe(const std::vector<ProbeFace>& faces, Run& run) 
     const RenderTarget target = isRecorded ? maps_.recordingTarget(f) : maps_.target(f);
     scenePass_.draw(capturePass(f), target, shownProbes(f.probe, run), run.work.counters,
                     capturedPart(technique_, f.face), isRecorded ? &*records_ : nullptr);
-    if (isRecorded) records_->endCapture(f, lookups[i]);
+    if (isRecorded) records_->endCapture(f, lookups[i], maps_.captured(f.probe));
     if (history_) history_->blend(f, target, maps_.captured(f.probe), run.isLast);
   }
 }
@@ -109,13 +110,13 @@ void BounceIterations::drawProbe(const std::vector<ProbeFace>& faces, Run& run) 
 std::vector<CaptureLookups> BounceIterations::planProbe(const std::vector<ProbeFace>& faces, const Run& run) {
   const int probe = faces.front().probe;
   std::vector<CaptureLookups> lookups;
-  std::vector<std::int64_t> texels(run.shown.size(), 0);
+  std::vector<std::int64_t> texels(scenePass_.lookupGroups().size(), 0);
   bool areShown = true;
   for (const ProbeFace& f : faces) {
     const CaptureLookups& ofFace = lookups.emplace_back(
         scenePass_.lookupsOf(capturePass(f), shownProbes(probe, run), capturedPart(technique_, f.face)));
     areShown = areShown && ofFace.areShown;
-    for (std::size_t p = 0; ofFace.isRecordable && p < texels.size(); ++p) texels[p] += ofFace.areas[p].texels();
+    for (std::size_t g = 0; ofFace.isRecordable && g < texels.size(); ++g) texels[g] += ofFace.areas[g].texels();
   }
   const bool areRecorded = std::ranges::count(redo_[static_cast<std::size_t>(probe)], Redo::lookups) == 0 && areShown &&
                            records_->reserve(probe, texels);

@@ -9,26 +9,24 @@
 namespace pb {
 namespace {
 
-// Of LookupRecord in raster/shaders/lookup_records.glsl, and of its two entries.
-constexpr std::int64_t kRecordBytes = 48;
-constexpr std::int64_t kEntriesBytes = 8;
-constexpr std::int64_t kTargetTexelBytes = 16;  // RGBA32F
+constexpr std::int64_t kTexelBytes = 16;  // RGBA32F
 constexpr int kTargets = 3;
-// Markers are floats, exact up to here.
-constexpr int kLastMarker = 1 << 24;
-constexpr int kCollectEdge = 8;  // of collect_lookups.comp
+// Of raster/shaders/lookup_records.glsl.
+constexpr std::int64_t kEntriesBytes = 12;
+int recordTexels(LookupRecord record) { return record == LookupRecord::mirror ? 1 : kTargets; }
+// Groups are told apart by the alpha of captures: half floats hold integers exactly up to here.
+constexpr std::size_t kLargestGroup = 2048;
+constexpr int kCollectColumns = 8, kCollectRows = 64;  // of a work group of collect_lookups.comp
 // Regions begin at multiples of this many records: of 256 bytes, the largest alignment of bound ranges that drivers ask
 // for, in records and in entries.
-constexpr std::int64_t kRegionAlignment = 32;
+constexpr std::int64_t kRegionAlignment = 64;
 
-std::int64_t recordsBytes(std::int64_t records) { return records * (kRecordBytes + kEntriesBytes); }
-
-std::int64_t targetBytes(int resolution) { return kTargets * kTargetTexelBytes * resolution * resolution; }
+std::int64_t targetBytes(int resolution) { return kTargets * kTexelBytes * resolution * resolution; }
 
 // A share that leaves room for maps, textures and the image.
 std::int64_t allowedBytes(const DeviceLimits& limits) { return limits.bytes / 4; }
 
-int groupsOf(int count) { return (count + kCollectEdge - 1) / kCollectEdge; }
+GLuint quotientUp(int count, int divisor) { return static_cast<GLuint>((count + divisor - 1) / divisor); }
 
 }  // namespace
 
@@ -49,53 +47,68 @@ LookupRecords::LookupRecords(gl::Context& context, Programs& programs, const Dev
                              const Technique& technique, int resolution, int probes)
     : gl_(context.functions()),
       largestBlock_(context.integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)),
+      largestTexture_(kTexelBytes * context.integer(GL_MAX_TEXTURE_BUFFER_SIZE)),
       allowedBytes_(allowedBytes(limits)),
       resolution_(resolution),
       probes_(probes),
       repetitions_(technique.bounces - 1),
-      collect_(programs.collectLookups()),
-      repeat_(programs.repeatLookups()),
+      mirrors_{programs.collectLookups(LookupRecord::mirror),
+               programs.repeatLookups(LookupRecord::mirror, techniqueDefines(technique))},
+      general_{programs.collectLookups(LookupRecord::general),
+               programs.repeatLookups(LookupRecord::general, techniqueDefines(technique))},
       captured_(static_cast<std::size_t>(probes)) {
-  constexpr std::array kNoMarker = {0.0f, 0.0f, 0.0f, 0.0f};
-  for (gl::Texture& target : targets_) {
+  for (gl::Texture& target : targets_)
     target = gl::makeTexture(
         gl_, {.target = GL_TEXTURE_2D, .format = GL_RGBA32F, .width = resolution, .height = resolution});
-    gl_.ClearTexImage(target.id(), 0, GL_RGBA, GL_FLOAT, kNoMarker.data());
-  }
+  GLuint region = 0;
+  gl_.CreateTextures(GL_TEXTURE_BUFFER, 1, &region);
+  region_ = gl::Texture(gl_, region);
   context.check("allocating what incremental bounce iterations keep");
 }
 
-std::size_t LookupRecords::listOf(int repetition, int probe, int lookedUp) const {
-  return static_cast<std::size_t>((repetition * probes_ + probe) * probes_ + lookedUp);
+std::size_t LookupRecords::listOf(int repetition, int probe, std::size_t group) const {
+  return static_cast<std::size_t>(repetition * probes_ + probe) * groups_.size() + group;
 }
 
-void LookupRecords::beginFrame() {
-  std::vector<List> lists(listOf(repetitions_, 0, 0), List{0, 1, 1, 0});
-  if (lists_.id() == 0) lists_ = gl::Buffer(gl_, lists.size() * sizeof(List));
-  lists_.write(0, gl::bytesOf(lists));
+const LookupRecords::RecordPrograms& LookupRecords::programsOf(const LookupGroup& group) const {
+  return group.record() == LookupRecord::mirror ? mirrors_ : general_;
+}
+
+void LookupRecords::beginFrame(const std::vector<LookupGroup>& groups) {
+  groups_ = groups;
+  const std::vector<List> lists(listOf(repetitions_, 0, 0), List{0, 1, 1, 0});
+  if (listCount_ < lists.size()) lists_ = gl::Buffer(gl_, lists.size() * sizeof(List));
+  listCount_ = std::max(listCount_, lists.size());
+  if (!lists.empty()) lists_.write(0, gl::bytesOf(lists));
   for (Captured& captured : captured_) {
     captured.repetitions = 0;
-    captured.regions.assign(static_cast<std::size_t>(probes_), {});
+    captured.regions.assign(groups_.size(), {});
   }
 }
 
 bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) {
+  if (groups_.size() > kLargestGroup) return false;
   Captured& captured = captured_[static_cast<std::size_t>(probe)];
-  std::int64_t records = 0;
-  for (std::size_t lookedUp = 0; lookedUp < texels.size(); ++lookedUp) {
-    if (texels[lookedUp] * kRecordBytes > largestBlock_) return false;
-    captured.regions[lookedUp] = {records, texels[lookedUp]};
-    records += (texels[lookedUp] + kRegionAlignment - 1) / kRegionAlignment * kRegionAlignment;
+  std::int64_t entries = 0, recordBytes = 0;
+  for (std::size_t group = 0; group < texels.size(); ++group) {
+    const std::int64_t bytesEach = kTexelBytes * recordTexels(groups_[group].record());
+    if (texels[group] * bytesEach > largestTexture_ || texels[group] * kEntriesBytes > largestBlock_) return false;
+    captured.regions[group] = {entries, recordBytes, texels[group]};
+    const std::int64_t room = (texels[group] + kRegionAlignment - 1) / kRegionAlignment * kRegionAlignment;
+    entries += room;
+    recordBytes += room * bytesEach;
   }
-  if (records > captured.capacity) {
-    const std::int64_t more = recordsBytes(records - captured.capacity);
-    if (bytes() + more > allowedBytes_) return false;
-    captured.capacity = records;
-    captured.records = gl::Buffer();  // first, so that both needn't fit
-    captured.entries = gl::Buffer();
-    captured.records = gl::Buffer(gl_, static_cast<std::size_t>(records * kRecordBytes));
-    captured.entries = gl::Buffer(gl_, static_cast<std::size_t>(records * kEntriesBytes));
-  }
+  const std::int64_t entryBytes = entries * kEntriesBytes;
+  if (recordBytes <= captured.recordBytes && entryBytes <= captured.entryBytes) return true;
+  recordBytes = std::max(recordBytes, captured.recordBytes);
+  const std::int64_t allEntryBytes = std::max(entryBytes, captured.entryBytes);
+  if (bytes() - captured.recordBytes - captured.entryBytes + recordBytes + allEntryBytes > allowedBytes_) return false;
+  captured.records = gl::Buffer();  // first, so that both needn't fit
+  captured.entries = gl::Buffer();
+  captured.recordBytes = recordBytes;
+  captured.entryBytes = allEntryBytes;
+  captured.records = gl::Buffer(gl_, static_cast<std::size_t>(recordBytes));
+  captured.entries = gl::Buffer(gl_, static_cast<std::size_t>(allEntryBytes));
   return true;
 }
 
@@ -107,61 +120,47 @@ void LookupRecords::writeTo(int targets) const {
   }
 }
 
-// Each capture has markers of its own, so that the targets need not be emptied.
-void LookupRecords::beginCapture() {
-  constexpr std::array kNoMarker = {0.0f, 0.0f, 0.0f, 0.0f};
-  const int first = marker_ == 0 ? 1 : marker_ + probes_;
-  marker_ = first;
-  if (first + probes_ > kLastMarker) {
-    gl_.ClearTexImage(targets_[0].id(), 0, GL_RGBA, GL_FLOAT, kNoMarker.data());
-    marker_ = 1;
-  }
-  writeTo(0);
+void LookupRecords::markDraw(GLuint program, int group, MapState map) const {
+  writeTo(recordTexels(groups_[static_cast<std::size_t>(group)].record()));
+  gl_.ProgramUniform2f(program, 0, static_cast<float>(1 + group), static_cast<float>(map));
 }
 
-void LookupRecords::markDraw(GLuint program, int lookedUp, MapState map) const {
-  writeTo(kTargets);
-  gl_.ProgramUniform2f(program, 0, static_cast<float>(marker_ + lookedUp), static_cast<float>(map));
-}
-
-void LookupRecords::hideMarks() const { writeTo(1); }
-
-void LookupRecords::keepMarks() const { writeTo(0); }
-
-void LookupRecords::endCapture(const ProbeFace& face, const CaptureLookups& lookups) {
+void LookupRecords::endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture) const {
   writeTo(kTargets);
   const Captured& captured = captured_[static_cast<std::size_t>(face.probe)];
-  for (GLuint i = 0; i < kTargets; ++i) gl_.BindTextureUnit(gpu::kLookupRestUnit + i, targets_[i].id());
-  gl_.UseProgram(collect_);
-  for (int lookedUp = 0; lookedUp < probes_; ++lookedUp) {
-    const TexelRect& area = lookups.areas[static_cast<std::size_t>(lookedUp)];
+  gl_.BindTextureUnit(gpu::kLookupCaptureUnit, capture.id());
+  for (GLuint i = 0; i < kTargets; ++i) gl_.BindTextureUnit(gpu::kLookupTargetUnit + i, targets_[i].id());
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    const TexelRect& area = lookups.areas[group];
     if (area.texels() == 0) continue;
-    bind(captured, captured.regions[static_cast<std::size_t>(lookedUp)]);
     const int columns = area.right - area.left, rows = area.bottom - area.top;
+    gl_.UseProgram(programsOf(groups_[group]).collect);
+    bind(captured, group, GL_WRITE_ONLY);
     gl_.Uniform4i(0, area.left, area.top, columns, rows);
-    gl_.Uniform3i(1, face.face, marker_ + lookedUp, static_cast<GLint>(listOf(0, face.probe, lookedUp)));
-    gl_.DispatchCompute(static_cast<GLuint>(groupsOf(columns)), static_cast<GLuint>(groupsOf(rows)), 1);
+    gl_.Uniform3i(1, face.face, static_cast<GLint>(1 + group), static_cast<GLint>(listOf(0, face.probe, group)));
+    gl_.DispatchCompute(quotientUp(columns, kCollectColumns), quotientUp(rows, kCollectRows), 1);
   }
 }
 
 void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<MapState>& states, float largestRadiance,
-                           bool isLast) {
+                           bool isLast, const std::function<void(const LookupGroup&)>& bindMirror) {
   constexpr GLuint kNoList = ~0u;
   Captured& captured = captured_[static_cast<std::size_t>(probe)];
   const int repetition = captured.repetitions++;
-  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl_.BindImageTexture(gpu::kLookupTargetImage, maps.captured(probe).id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
   gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, lists_.id());
-  gl_.UseProgram(repeat_);
-  for (int lookedUp = 0; lookedUp < probes_; ++lookedUp) {
-    const Region& region = captured.regions[static_cast<std::size_t>(lookedUp)];
-    if (region.records == 0) continue;
-    const std::size_t list = listOf(repetition, probe, lookedUp);
-    const GLuint next = isLast ? kNoList : static_cast<GLuint>(listOf(repetition + 1, probe, lookedUp));
-    bind(captured, region);
-    maps.bind(lookedUp);
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    if (captured.regions[group].records == 0) continue;
+    const std::size_t list = listOf(repetition, probe, group);
+    const GLuint next = isLast ? kNoList : static_cast<GLuint>(listOf(repetition + 1, probe, group));
+    const auto lookedUp = static_cast<std::size_t>(groups_[group].probe);
+    gl_.UseProgram(programsOf(groups_[group]).repeat);
+    bind(captured, group, GL_READ_ONLY);
+    maps.bind(groups_[group].probe);
+    if (groups_[group].record() == LookupRecord::mirror) bindMirror(groups_[group]);
     gl_.Uniform3ui(0, static_cast<GLuint>(list), next, static_cast<GLuint>(repetition));
-    gl_.Uniform2f(1, largestRadiance, static_cast<float>(states[static_cast<std::size_t>(lookedUp)]));
+    gl_.Uniform2f(1, largestRadiance, static_cast<float>(states[lookedUp]));
     gl_.DispatchComputeIndirect(static_cast<GLintptr>(list * sizeof(List)));
   }
   gl_.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
@@ -169,19 +168,21 @@ void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<M
 }
 
 // The shaders see one region: all of a capture's records may be more than a block can hold.
-void LookupRecords::bind(const Captured& captured, const Region& region) const {
-  const auto bindRange = [&](GLuint block, const gl::Buffer& buffer, std::int64_t bytesEach) {
-    gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, block, buffer.id(), static_cast<GLintptr>(region.first * bytesEach),
-                        static_cast<GLsizeiptr>(region.records * bytesEach));
-  };
-  bindRange(gpu::kLookupRecordBlock, captured.records, kRecordBytes);
-  bindRange(gpu::kLookupIndexBlock, captured.entries, kEntriesBytes);
+void LookupRecords::bind(const Captured& captured, std::size_t group, GLenum access) const {
+  const Region& region = captured.regions[group];
+  const std::int64_t recordBytes = region.records * kTexelBytes * recordTexels(groups_[group].record());
+  gl_.TextureBufferRange(region_.id(), GL_RGBA32F, captured.records.id(), static_cast<GLintptr>(region.firstRecord),
+                         static_cast<GLsizeiptr>(recordBytes));
+  gl_.BindImageTexture(gpu::kLookupRecordImage, region_.id(), 0, GL_FALSE, 0, access, GL_RGBA32F);
+  gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, gpu::kLookupEntryBlock, captured.entries.id(),
+                      static_cast<GLintptr>(region.first * kEntriesBytes),
+                      static_cast<GLsizeiptr>(region.records * kEntriesBytes));
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLookupListBlock, lists_.id());
 }
 
 std::int64_t LookupRecords::bytes() const {
   std::int64_t sum = targetBytes(resolution_);
-  for (const Captured& captured : captured_) sum += recordsBytes(captured.capacity);
+  for (const Captured& captured : captured_) sum += captured.recordBytes + captured.entryBytes;
   return sum;
 }
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "raster/gl/objects.h"
@@ -24,6 +25,17 @@ class ProbeMaps;
 // Whether incremental iterations differ from brute force: else everything is captured again.
 bool repeatsLookups(const Technique& technique);
 
+// Surfaces whose lookups are kept together: all that look one probe's map up, of one material if they are mirrors of
+// which less is kept (LookupRecord::mirror).
+struct LookupGroup {
+  static constexpr int kNoMirror = -1;
+  int probe;
+  int mirror;  // its material
+
+  LookupRecord record() const { return mirror == kNoMirror ? LookupRecord::general : LookupRecord::mirror; }
+  friend bool operator==(const LookupGroup&, const LookupGroup&) = default;
+};
+
 // Whether the device has room for lookups of maps of that size.
 bool lookupRecordsFit(const DeviceLimits& limits, int resolution);
 
@@ -35,7 +47,7 @@ struct CaptureLookups {
   bool any = false;
   bool areShown = true;          // the maps that are looked up
   bool isRecordable = true;      // each texel shows one lookup of an opaque surface at most
-  std::vector<TexelRect> areas;  // by probe looked up: where the texels are that show it
+  std::vector<TexelRect> areas;  // by group: where the texels are that show it
 };
 
 class LookupRecords {
@@ -47,60 +59,65 @@ class LookupRecords {
   // What recording surfaces are drawn to besides the colour; see scene.frag.
   std::array<const gl::Texture*, 3> targets() const { return {&targets_[0], &targets_[1], &targets_[2]}; }
 
-  // Forgets all records.
-  void beginFrame();
+  // Forgets all records. groups: of this frame.
+  void beginFrame(const std::vector<LookupGroup>& groups);
 
-  // Makes room for the records of a captured probe. texels: by probe looked up, the most there are. False if the device
-  // has none.
+  // Makes room for the records of a captured probe. texels: by group, the most there are. False if the device has none.
   bool reserve(int probe, const std::vector<std::int64_t>& texels);
 
-  // A capture is drawn between the two. What is drawn next says which map it looks up, or that what it covers shows
-  // none, or leaves the targets alone (the state after beginCapture()).
-  void beginCapture();
-  void markDraw(GLuint program, int lookedUp, MapState map) const;
-  void hideMarks() const;
-  void keepMarks() const;
-  void endCapture(const ProbeFace& face, const CaptureLookups& lookups);
+  // A capture is drawn between the two. What is drawn next says to which group it belongs, or that it isn't recorded
+  // (the state after beginCapture()).
+  void beginCapture() const { skipDraw(); }
+  void markDraw(GLuint program, int group, MapState map) const;
+  void skipDraw() const { writeTo(0); }
+  void endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture) const;
 
   // Looks up what the probe's texels show of the others once more. states: by probe looked up. isLast: no other
-  // repetition follows in this frame.
-  void repeat(int probe, const ProbeMaps& maps, const std::vector<MapState>& states, float largestRadiance,
-              bool isLast);
+  // repetition follows in this frame. bindMirror binds the material of a group's mirrors.
+  void repeat(int probe, const ProbeMaps& maps, const std::vector<MapState>& states, float largestRadiance, bool isLast,
+              const std::function<void(const LookupGroup&)>& bindMirror);
 
   // Of all buffers.
   std::int64_t bytes() const;
 
  private:
   struct Region {
-    std::int64_t first = 0;
+    std::int64_t first = 0;        // of the entries
+    std::int64_t firstRecord = 0;  // in bytes
     std::int64_t records = 0;
   };
   struct Captured {
-    std::vector<Region> regions;  // by probe looked up
-    std::int64_t capacity = 0;
+    std::vector<Region> regions;  // by group
+    std::int64_t recordBytes = 0, entryBytes = 0;
     gl::Buffer records;
     gl::Buffer entries;
     int repetitions = 0;  // in this frame
   };
+  struct RecordPrograms {
+    GLuint collect, repeat;
+  };
   // As in raster/shaders/lookup_records.glsl: work groups, then number of entries.
   using List = std::array<std::uint32_t, 4>;
 
-  std::size_t listOf(int repetition, int probe, int lookedUp) const;
-  void bind(const Captured& captured, const Region& region) const;
+  std::size_t listOf(int repetition, int probe, std::size_t group) const;
+  const RecordPrograms& programsOf(const LookupGroup& group) const;
+  void bind(const Captured& captured, std::size_t group, GLenum access) const;
   void writeTo(int targets) const;
 
   const gl::Functions& gl_;
-  std::int64_t largestBlock_;  // bytes of a buffer that shaders see
+  std::int64_t largestBlock_;    // bytes of a buffer that shaders see
+  std::int64_t largestTexture_;  // bytes of a buffer that they see as an image
   std::int64_t allowedBytes_;
   int resolution_;
   int probes_;
   int repetitions_;  // most in a frame
-  GLuint collect_;
-  GLuint repeat_;
+  RecordPrograms mirrors_, general_;
   std::array<gl::Texture, 3> targets_;
-  int marker_ = 0;                  // of the first probe in the current capture
+  gl::Texture region_;  // of the buffer of records that shaders see
+  std::vector<LookupGroup> groups_;
   std::vector<Captured> captured_;  // by probe
-  gl::Buffer lists_;                // by repetition, probe and probe looked up
+  std::size_t listCount_ = 0;
+  gl::Buffer lists_;  // by repetition, probe and group
 };
 
 }  // namespace pb

@@ -64,6 +64,8 @@ std::string definesOf(EnvironmentSource source) {
   return defines;
 }
 
+std::string definesOf(LookupRecord record) { return record == LookupRecord::mirror ? define("MIRROR_RECORDS") : ""; }
+
 // The #version line has to stay the first.
 std::string withDefines(const std::string& shader, const std::string& defines) {
   const std::size_t secondLine = shader.find('\n') + 1;
@@ -102,18 +104,18 @@ GLuint Programs::surfaceShowingEnvironment(const SurfaceVariant& variant, Enviro
               definesOf(variant) + techniqueDefines + definesOf(source));
 }
 
-GLuint Programs::surfaceRecordingLookup(const SurfaceVariant& variant, const std::string& techniqueDefines) {
-  return surfaceShowingProbe(variant, techniqueDefines + define("RECORDS_LOOKUP"));
+GLuint Programs::surfaceRecordingLookup(const SurfaceVariant& variant, LookupRecord record,
+                                        const std::string& techniqueDefines) {
+  return surfaceShowingProbe(variant, techniqueDefines + define("RECORDS_LOOKUP") + definesOf(record));
 }
 
-GLuint Programs::surfaceHidingLookup(const SurfaceVariant& variant, EnvironmentSource source,
-                                     const std::string& techniqueDefines) {
-  return surfaceShowingEnvironment(variant, source, techniqueDefines + define("HIDES_LOOKUP"));
+GLuint Programs::collectLookups(LookupRecord record) {
+  return findCompute(shaders::kCollectLookupsComp, "collect_lookups", definesOf(record));
 }
 
-GLuint Programs::collectLookups() { return findCompute(shaders::kCollectLookupsComp, "collect_lookups", ""); }
-
-GLuint Programs::repeatLookups() { return findCompute(shaders::kRepeatLookupsComp, "repeat_lookups", ""); }
+GLuint Programs::repeatLookups(LookupRecord record, const std::string& techniqueDefines) {
+  return findCompute(shaders::kRepeatLookupsComp, "repeat_lookups", techniqueDefines + definesOf(record));
+}
 
 GLuint Programs::background(EnvironmentSource source) {
   return find(shaders::kBackgroundVert, shaders::kBackgroundFrag, "background", definesOf(source));

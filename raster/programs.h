@@ -45,6 +45,9 @@ struct SurfaceVariant {
   friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
 };
 
+// What is kept of a lookup (raster/shaders/lookup_records.glsl): of mirrors that are everywhere the same, less.
+enum class LookupRecord { mirror, general };
+
 // What the technique sets for the shading of all surfaces.
 std::string techniqueDefines(const Technique& technique);
 // Of the surfaces that look up cube maps of `resolution` texels along an edge with that filter's levels.
@@ -58,13 +61,12 @@ class Programs {
   GLuint surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines);
   GLuint surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source,
                                    const std::string& techniqueDefines);
-  // As surfaceShowingProbe() and surfaceShowingEnvironment(); write what lookup_records.glsl keeps, too.
-  GLuint surfaceRecordingLookup(const SurfaceVariant& variant, const std::string& techniqueDefines);
-  GLuint surfaceHidingLookup(const SurfaceVariant& variant, EnvironmentSource source,
-                             const std::string& techniqueDefines);
+  // As surfaceShowingProbe(); writes what lookup_records.glsl keeps, too.
+  GLuint surfaceRecordingLookup(const SurfaceVariant& variant, LookupRecord record,
+                                const std::string& techniqueDefines);
   // Of lists of lookups (raster/lookup_records.h).
-  GLuint collectLookups();
-  GLuint repeatLookups();
+  GLuint collectLookups(LookupRecord record);
+  GLuint repeatLookups(LookupRecord record, const std::string& techniqueDefines);
   GLuint background(EnvironmentSource source);
   // Filters of cube maps (raster/prefilter.h).
   GLuint boxLevel(bool weighsSolidAngles, const std::string& formatDefines);

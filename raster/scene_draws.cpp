@@ -75,9 +75,13 @@ bool hasOneLookup(const SurfaceVariant& variant) {
          variant.coverage != shading::kAlphaBlend;
 }
 
-// By the order of draws, diffuse surfaces come before all that look something up.
-bool mayCoverLookups(const SurfaceVariant& variant) {
-  return variant.kind != shading::kSurfaceDiffuse && variant.coverage != shading::kAlphaBlend;
+// The same everywhere: shows nothing but what it looks up, at level 0, weighted as its constants and the cosine to the
+// viewer say.
+bool isUniformMirror(const Technique& technique, const Material& material, const Mesh& mesh) {
+  const shading::MaterialConstants& m = material.constants;
+  return m.kind.x == shading::kSurfaceMirror && m.factors.x == 1.0f && glm::vec3(m.emission) == glm::vec3(0.0f) &&
+         material.baseColorTexture < 0 && material.metallicRoughnessTexture < 0 && mesh.colors.empty() &&
+         !technique.mips;
 }
 
 SurfaceVariant variantOf(const Technique& technique, const Snapshot& snapshot, const SnapshotInstance& instance,
@@ -129,11 +133,10 @@ class SurfacePrograms {
     const std::string capturedDefines = ofMaterial + lightDefines(snapshot_, technique_.captureLights);
     static_cast<SurfaceDraw::Shown&>(draw.captured) = showing(captured, reflection, capturedDefines, map, hasBackFaces);
     if (!repeatsLookups(technique_)) return;
-    if (draw.captured.showingProbe != 0 && hasOneLookup(draw.variant))
-      draw.captured.recordingProbe = programs_.surfaceRecordingLookup(captured, capturedDefines + map);
-    if (mayCoverLookups(draw.variant))
-      draw.captured.hidingLookups =
-          programs_.surfaceHidingLookup(captured, source_, capturedDefines + environmentLevels_);
+    if (draw.captured.showingProbe == 0 || !hasOneLookup(draw.variant)) return;
+    if (isUniformMirror(technique_, material, *instance.mesh)) draw.captured.record = LookupRecord::mirror;
+    draw.captured.recordingProbe =
+        programs_.surfaceRecordingLookup(captured, draw.captured.record, capturedDefines + map);
   }
 
  private:

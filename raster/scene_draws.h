@@ -35,7 +35,7 @@ struct SurfaceDraw {
   // In captures, which the technique may reduce.
   struct Captured : Shown {
     GLuint recordingProbe = 0;  // none if bounce iterations can't do without drawing it again
-    GLuint hidingLookups = 0;   // instead of showingEnvironment before surfaces that may have been recorded
+    LookupRecord record = LookupRecord::general;
   } captured;
 
   bool isBlended() const { return variant.coverage == shading::kAlphaBlend; }

@@ -42,6 +42,7 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   reflections_.clear();
   for (const SnapshotInstance& instance : snapshot.instances)
     reflections_.push_back(reflectionOf(technique_, snapshot, instance));
+  groupLookups();
   resources_->showScreens(snapshot.screens);
   if (!technique_.captureTextures) resources_->showPlainMaterials(snapshot.screens);
   constants_.uploadInstances(snapshot.instances, reflections_);
@@ -52,6 +53,19 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   resources_->bindScene();
   resources_->bindReflection(technique_);
   constants_.bindLights();
+}
+
+void ScenePass::groupLookups() {
+  lookupGroups_.clear();
+  lookupGroupOf_.assign(reflections_.size(), -1);
+  for (const SurfaceDraw& draw : draws_.all()) {
+    if (draw.captured.recordingProbe == 0) continue;
+    const bool isMirror = draw.captured.record == LookupRecord::mirror;
+    const LookupGroup group = {reflections_[draw.instance].probe, isMirror ? draw.material : LookupGroup::kNoMirror};
+    const auto found = std::ranges::find(lookupGroups_, group);
+    lookupGroupOf_[draw.instance] = static_cast<int>(found - lookupGroups_.begin());
+    if (found == lookupGroups_.end()) lookupGroups_.push_back(group);
+  }
 }
 
 void ScenePass::beginShadows() {
@@ -107,7 +121,7 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownPr
   }
   drawSurfaces({visible.begin(), firstBlended}, pass, probes, records);
   gl_.Disable(GL_SCISSOR_TEST);
-  if (records != nullptr) records->keepMarks();
+  if (records != nullptr) records->skipDraw();
   drawBackground();
   counters.draws += static_cast<std::int64_t>(visible.size()) + 1;
   counters.triangles += 1;
@@ -128,20 +142,21 @@ void ScenePass::draw(std::size_t pass, const RenderTarget& target, const ShownPr
 CaptureLookups ScenePass::lookupsOf(std::size_t pass, const ShownProbes& probes, FacePart shownPart) const {
   const gpu::PassConstants& constants = constants_.pass(pass);
   CaptureLookups lookups;
-  lookups.areas.assign(snapshot_->probes.size(), {});
+  lookups.areas.assign(lookupGroups_.size(), {});
   bool isBlended = false;
   for (const SurfaceDraw* draw : visibleDraws(pass, probes.hidden, shownPart)) {
     isBlended = isBlended || draw->isBlended();
     const int probe = reflections_[draw->instance].probe;
     const bool showsTwo = draw->shown.showingBlend != 0;
     if (draw->shown.showingProbe == 0 || (probe == probes.hidden && !showsTwo)) continue;
-    const TexelRect area = texelsShowing(snapshot_->instances[draw->instance].worldBounds, constants.view,
-                                         static_cast<int>(constants.image.x));
-    const auto lookedUp = static_cast<std::size_t>(probe);
+    const int group = lookupGroupOf_[draw->instance];
     lookups.any = true;
-    lookups.areShown = lookups.areShown && probes.shown[lookedUp];
-    lookups.isRecordable = lookups.isRecordable && draw->captured.recordingProbe != 0 && !showsTwo;
-    lookups.areas[lookedUp] = joined(lookups.areas[lookedUp], area);
+    lookups.areShown = lookups.areShown && probes.shown[static_cast<std::size_t>(probe)];
+    lookups.isRecordable = lookups.isRecordable && group >= 0 && !showsTwo;
+    if (!lookups.isRecordable) continue;
+    TexelRect& area = lookups.areas[static_cast<std::size_t>(group)];
+    area = joined(area, texelsShowing(snapshot_->instances[draw->instance].worldBounds, constants.view,
+                                      static_cast<int>(constants.image.x)));
   }
   // What shines through layers is not what the list of texels says.
   lookups.isRecordable = lookups.isRecordable && lookups.any && !isBlended;
@@ -188,17 +203,14 @@ void ScenePass::drawSurfaces(const Draws& draws, std::size_t pass, const ShownPr
 // Returns the program that writes what `program` does and tells the records of it.
 GLuint ScenePass::markDraw(const SurfaceDraw& draw, GLuint program, const ShownProbes& probes,
                            const LookupRecords& records) const {
-  if (draw.captured.recordingProbe != 0 && program == draw.captured.showingProbe) {
-    const int lookedUp = reflections_[draw.instance].probe;
-    records.markDraw(draw.captured.recordingProbe, lookedUp, (*probes.states)[static_cast<std::size_t>(lookedUp)]);
-    return draw.captured.recordingProbe;
+  if (draw.captured.recordingProbe == 0 || program != draw.captured.showingProbe) {
+    records.skipDraw();
+    return program;
   }
-  if (draw.captured.hidingLookups != 0) {
-    records.hideMarks();
-    return draw.captured.hidingLookups;
-  }
-  records.keepMarks();
-  return program;
+  const int probe = reflections_[draw.instance].probe;
+  records.markDraw(draw.captured.recordingProbe, lookupGroupOf_[draw.instance],
+                   (*probes.states)[static_cast<std::size_t>(probe)]);
+  return draw.captured.recordingProbe;
 }
 
 // Binds what the draw's specular lobe looks up, and returns the program that does. A map may not be read while it is

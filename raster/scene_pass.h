@@ -52,6 +52,10 @@ class ScenePass {
   void draw(std::size_t pass, const RenderTarget& target, const ShownProbes& probes, FrameCounters& counters,
             FacePart shownPart = FacePart::whole, LookupRecords* records = nullptr);
 
+  // Of this frame, of techniques that repeat lookups: by number what captures may look up.
+  const std::vector<LookupGroup>& lookupGroups() const { return lookupGroups_; }
+  void bindMirror(const LookupGroup& group) const { resources_->bindMaterial(group.mirror); }
+
   // What later bounce iterations change of the capture that draw() makes.
   CaptureLookups lookupsOf(std::size_t pass, const ShownProbes& probes, FacePart shownPart) const;
 
@@ -62,6 +66,7 @@ class ScenePass {
   using Draws = std::vector<const SurfaceDraw*>;
 
   void beginShadows();
+  void groupLookups();
   Draws shadowCasters(const gpu::ShadowFace& face) const;
   void beginPass(std::size_t pass, const RenderTarget& target) const;
   bool isVisible(const SurfaceDraw& draw, std::size_t pass) const;
@@ -84,6 +89,8 @@ class ScenePass {
   SceneDraws draws_;
   FrameConstants constants_;
   std::vector<Reflection> reflections_;  // by instance
+  std::vector<LookupGroup> lookupGroups_;
+  std::vector<int> lookupGroupOf_;  // by instance; -1: none
   gl::VertexArray noVertices_;
   const Snapshot* snapshot_ = nullptr;       // between beginFrame() and the last pass of the frame
   std::optional<BackFaces> backFaces_;       // of scenes whose refraction reads them

@@ -18,8 +18,7 @@ struct TexelRect {
 // The smallest rectangle that has both in it.
 TexelRect joined(const TexelRect& a, const TexelRect& b);
 
-// Has in it all texels of a square view of `size` texels along an edge that show a part of the box; all texels of the
-// view if the box reaches behind the near plane.
+// Has in it all texels of a square view of `size` texels along an edge that show a part of the box.
 TexelRect texelsShowing(const Bounds& box, const shading::View& view, int size);
 
 }  // namespace pb

@@ -1,32 +1,41 @@
 #version 450 core
-// Makes a list of a captured face's unsettled texels that surfaces with a lookup were drawn to (RECORDS_LOOKUP of
+// Makes a list of a captured face's unsettled texels that surfaces of one group of lookups were drawn to (RECORDS_LOOKUP of
 // scene.frag).
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
 #include "raster/shaders/lookup_records.glsl"
 
+// Each invocation goes down some rows. What is dear is what is done with the texels found, and llvmpipe does it for a
+// whole vector of invocations if one of them needs it.
+const int kRows = 8;
+
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = kLookupRestUnit) uniform sampler2D restAndMarker;
-layout(binding = kLookupWeightUnit) uniform sampler2D weightAndLod;
-layout(binding = kLookupDirectionUnit) uniform sampler2D directionAndUnsettled;
+layout(binding = kLookupCaptureUnit) uniform sampler2DArray capture;
+layout(binding = kLookupTargetUnit) uniform sampler2D targets[kRecordTexels];
+layout(rgba32f, binding = kLookupRecordImage) writeonly uniform imageBuffer records;
 // x y first texel, z w number of columns and rows
 layout(location = 0) uniform ivec4 area;
-// x face, y marker of the texels, z the list
+// x face, y alpha of the texels, z the list
 layout(location = 1) uniform ivec3 job;
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  if (p.x >= area.z || p.y >= area.w) return;
-  p += area.xy;
-  vec4 rest = texelFetch(restAndMarker, p, 0);
-  if (int(rest.w) != job.y) return;
-  vec4 direction = texelFetch(directionAndUnsettled, p, 0);
-  if (direction.w == 0.0f) return;
-  uint record = addToList(uint(job.z));
-  vec4 weight = texelFetch(weightAndLod, p, 0);
-  records[record].rest = vec3(rest);
-  records[record].texel = uint(p.x) | (uint(p.y) << 14u) | (uint(job.x) << 28u);
-  records[record].weight = vec3(weight);
-  records[record].lod = weight.w;
-  records[record].direction = vec3(direction);
+  ivec2 corner = ivec2(gl_GlobalInvocationID.x, kRows * gl_GlobalInvocationID.y);
+  ivec2 last = ivec2(area.z, area.w) - ivec2(1);
+  uint found = 0u;
+  for (int row = 0; row < kRows; ++row) {
+    ivec2 p = corner + ivec2(0, row);
+    ivec2 inside = min(p, last);
+    float alpha = texelFetch(capture, ivec3(inside + area.xy, job.x), 0).w;
+    if (p == inside && alpha == float(job.y)) found |= 1u << row;
+  }
+  if (found == 0u) return;
+  uint place = addToList(uint(job.z), uint(bitCount(found)));
+  while (found != 0u) {
+    ivec2 p = corner + ivec2(0, findLSB(found)) + area.xy;
+    found &= found - 1u;
+    for (int i = 0; i < kRecordTexels; ++i)
+      imageStore(records, kRecordTexels * int(place) + i, texelFetch(targets[i], p, 0));
+    entries[3u * place] = uint(p.x) | (uint(p.y) << 14u) | (uint(job.x) << 28u);
+    ++place;
+  }
 }

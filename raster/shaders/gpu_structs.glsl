@@ -51,13 +51,13 @@ const int kSmoothingGroupBlock = 1;
 const int kAreaLightBlock = 2;
 const int kLayerBlock = 3;
 const int kShadowBlock = 4;
-const int kLookupRecordBlock = 5;
-const int kLookupListBlock = 6;
-const int kLookupIndexBlock = 7;
+const int kLookupListBlock = 5;
+const int kLookupEntryBlock = 6;
 // Image units.
 const int kLayerHeadImage = 0;
 const int kFilterTargetImage = 1;
 const int kLookupTargetImage = 2;
+const int kLookupRecordImage = 3;
 // Texture units. Those of a material follow kMaterialUnit in the order of the slots in MaterialConstants.
 const int kProbeUnit = 0;
 const int kEnvironmentUnit = 1;
@@ -73,6 +73,5 @@ const int kSecondProbeDepthUnit = 14;
 const int kPlanarUnit = kSecondProbeUnit;  // owners of a probe don't blend two
 const int kTextureUnits = 15;
 const int kFilterSourceUnit = kMaterialUnit;  // of the filters of cube maps; draws bind their materials anew
-const int kLookupRestUnit = kMaterialUnit;  // the same of what makes lists of lookups
-const int kLookupWeightUnit = kMaterialUnit + 1;
-const int kLookupDirectionUnit = kMaterialUnit + 2;
+const int kLookupCaptureUnit = kMaterialUnit;  // the same of what makes lists of lookups
+const int kLookupTargetUnit = kMaterialUnit + 1;  // and the ones that follow

@@ -46,8 +46,9 @@ struct LookedUp {
   float lod;
   vec3 direction;
   float alpha;
+  float cosine;  // to the viewer, of the surface
 };
-LookedUp lookedUp = LookedUp(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+LookedUp lookedUp = LookedUp(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, 0.0f);
 #endif
 
 vec3 texelAlong(samplerCube map, vec3 d, float lod) {

@@ -6,9 +6,10 @@
 // those that cover partly and are composed later (layers.glsl), NO_LIGHTS if lights are left out, SHADOWS if they have
 // shadow maps, CONDUCTOR if the metal's index of refraction is known, and AREA_LIGHTS if surfaces emit. RECORDS_LOOKUP, of
 // opaque surfaces that look up one texel of one probe's map, writes what they show as rest + weight * radiance, for later
-// bounce iterations (lookup_records.glsl); HIDES_LOOKUP, of other opaque surfaces, that they show none.
+// bounce iterations (lookup_records.glsl); with MIRROR_RECORDS only what such records have.
 //
-// The colour's alpha says whether a later bounce iteration of the frame may change it: 1 if it may.
+// The colour's alpha says whether a later bounce iteration of the frame may change it: 0 if none does. What is recorded has
+// the number of its group, from 1 on.
 #define PB_FUNC
 #include "raster/shaders/blocks.glsl"
 #include "raster/shaders/surface_fetch.glsl"
@@ -34,15 +35,16 @@ layout(early_fragment_tests) in;  // hidden layers must not be stored
 #else
 layout(location = 0) out vec4 radiance;
 #endif
-#ifdef HIDES_LOOKUP
-layout(location = 1) out vec4 restAndMarker;
-#endif
 #ifdef RECORDS_LOOKUP
 #include "raster/shaders/settled.glsl"
-layout(location = 0) uniform vec2 lookupMarker;  // y: how much of the map is settled
-layout(location = 1) out vec4 restAndMarker;
-layout(location = 2) out vec4 weightAndLod;
-layout(location = 3) out vec4 directionAndUnsettled;
+layout(location = 0) uniform vec2 lookupGroup;  // y: how much of the map is settled
+#ifdef MIRROR_RECORDS
+layout(location = 1) out vec4 directionAndCosine;
+#else
+layout(location = 1) out vec4 directionAndLod;
+layout(location = 2) out vec4 weight;
+layout(location = 3) out vec4 rest;
+#endif
 #endif
 
 #include "raster/shaders/radiance_lookup.glsl"
@@ -100,11 +102,8 @@ void main() {
   if (s.kind == kSurfaceGlass || s.kind == kSurfaceGlossy)
     dfg = surfaceDfg(s, dfgTable, max(dot(s.normal, fragment.toViewer), 0.0f));
   vec3 sum = localRadianceOf(s, fragment.toViewer, dfg);
-#ifdef HIDES_LOOKUP
-  restAndMarker = vec4(0.0f);
-#endif
-#ifdef RECORDS_LOOKUP
-  restAndMarker = vec4(sum, lookupMarker.x);
+#if defined(RECORDS_LOOKUP) && !defined(MIRROR_RECORDS)
+  rest = vec4(sum, 0.0f);
 #endif
 #ifndef NO_REFLECTION
   if (isSpecular(s)) sum += specularRadiance(s, fragment.toViewer, dfg);
@@ -113,10 +112,13 @@ void main() {
 #ifdef ALPHA_BLEND
   addLayer(sum, s.opacity);
 #elif defined(RECORDS_LOOKUP)
-  float unsettled = unsettledLookup(lookedUp.alpha, lookupMarker.y);
-  radiance = vec4(sum, unsettled);
-  weightAndLod = vec4(lookedUp.weight, lookedUp.lod);
-  directionAndUnsettled = vec4(lookedUp.direction, unsettled);
+  radiance = vec4(sum, lookupGroup.x * unsettledLookup(lookedUp.alpha, lookupGroup.y));
+#ifdef MIRROR_RECORDS
+  directionAndCosine = vec4(lookedUp.direction, lookedUp.cosine);
+#else
+  directionAndLod = vec4(lookedUp.direction, lookedUp.lod);
+  weight = vec4(lookedUp.weight, 0.0f);
+#endif
 #elif defined(PROBE_LOOKUP)
   radiance = vec4(sum, 1.0f);
 #else

@@ -30,13 +30,15 @@ vec3 reflectedRadiance(Surface s, vec3 toViewer) {
 
 vec3 specularRadiance(Surface s, vec3 toViewer, vec2 dfg) {
   float relativeIor = gl_FrontFacing ? s.ior : 1.0f / s.ior;
-  SpecularWeights weights = specularWeights(s, max(dot(s.normal, toViewer), 0.0f), relativeIor, kFresnelLaw);
+  float cosine = max(dot(s.normal, toViewer), 0.0f);
+  SpecularWeights weights = specularWeights(s, cosine, relativeIor, kFresnelLaw);
 #ifdef FILTERED_LOOKUP
   if (hasSplitSum(s)) weights.reflection = splitSum(s, dfg);
 #endif
   vec3 sum = weights.reflection * reflectedRadiance(s, toViewer);
 #ifdef RECORDS_LOOKUP
   lookedUp.weight = weights.reflection;
+  lookedUp.cosine = cosine;
 #endif
   if (s.kind == kSurfaceGlass) sum += refractedRadiance(s, toViewer, weights.refraction);
   return sum;
