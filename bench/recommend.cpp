@@ -72,7 +72,9 @@ std::string valueOf(const AxisValues& technique, const std::string& axis) {
 }
 
 Step makeStep(const std::string& axis, const Candidate& from, const Candidate& to) {
-  Step step{axis, valueOf(from.technique, axis), valueOf(to.technique, axis), from.loss.value - to.loss.value, 0, {}};
+  Step step{axis, valueOf(from.technique, axis), valueOf(to.technique, axis)};
+  step.gain = from.loss.value - to.loss.value;
+  step.verdict = verdictOf(to.loss, from.loss, to.clearOfFloor, from.clearOfFloor);
   // As of independent errors. Both are scored against the same reference, whose noise moves them alike: on the safe
   // side.
   step.plusMinus = std::hypot(from.loss.plusMinus(), to.loss.plusMinus());

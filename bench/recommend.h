@@ -12,6 +12,7 @@
 
 #include "bench/candidates.h"
 #include "bench/results.h"
+#include "bench/verdict.h"
 
 namespace pb {
 
@@ -26,9 +27,10 @@ struct RecommendRequest {
 // What going from one technique to another does, where they differ in one axis.
 struct Step {
   std::string axis, from, to;
-  double gain = 0;       // by which the error falls; negative if it rises
-  double plusMinus = 0;  // half the 95 % interval of the gain; 0 where the errors have none
-  std::optional<Estimate> costFactor;
+  double gain = 0;                   // by which the error falls; negative if it rises
+  double plusMinus = 0;              // half the 95 % interval of the gain; 0 where the errors have none
+  Verdict verdict = Verdict::equal;  // of the error after it, seen from that before
+  std::optional<Estimate> costFactor{};
 };
 
 struct Recommendation {

@@ -147,7 +147,9 @@ std::string questionText(const Selection& selection, const CandidateSet& set) {
 std::string stepText(const Step& step) {
   const std::string interval = step.plusMinus > 0 ? fmt::format(" +- {}", formatSignificant(step.plusMinus, 1)) : "";
   std::string text = fmt::format("{} {} -> {} ", step.axis, step.from, step.to);
-  if (std::abs(step.gain) <= step.plusMinus)
+  if (step.verdict == Verdict::belowFloor)
+    text += "stays below the floor";
+  else if (step.verdict == Verdict::equal)
     text += fmt::format("changes nothing within {}", formatSignificant(step.plusMinus, 1));
   else
     text += fmt::format("{} {}{}", step.gain > 0 ? "buys" : "loses", formatSignificant(std::abs(step.gain)), interval);
@@ -160,13 +162,13 @@ std::string stepText(const Step& step) {
 const Step* bestStepUp(const std::vector<Step>& steps) {
   const Step* best = nullptr;
   for (const Step& step : steps)
-    if (step.gain > step.plusMinus && (!best || step.gain > best->gain)) best = &step;
+    if (step.verdict == Verdict::better && (!best || step.gain > best->gain)) best = &step;
   return best;
 }
 
 const Step* bestStepDown(const std::vector<Step>& steps) {
   const Step* best = nullptr;
-  const auto loss = [](const Step& step) { return std::max(0.0, -step.gain - step.plusMinus); };
+  const auto loss = [](const Step& step) { return step.verdict == Verdict::worse ? -step.gain : 0.0; };
   for (const Step& step : steps) {
     if (!step.costFactor || !(step.costFactor->high < 1)) continue;
     const bool better = !best || loss(step) < loss(*best) ||

@@ -20,7 +20,7 @@ std::string questionText(const Selection& selection, const CandidateSet& set);
 std::string stepText(const Step& step);
 
 // The two that say most: the largest gain that is beyond its interval, and the largest saving of time that costs
-// nothing beyond its interval or, failing that, least.
+// nothing or, failing that, least.
 const Step* bestStepUp(const std::vector<Step>& steps);
 const Step* bestStepDown(const std::vector<Step>& steps);
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bench/recommend.h"
+#include "bench/shell_word.h"
 
 namespace pb {
 namespace {
@@ -17,12 +18,6 @@ std::string escaped(const std::string& text) {
     result += c;
   }
   return result;
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + '\'';
 }
 
 bool hasSetting(const AxisValues& technique, const std::pair<std::string, std::string>& setting) {
@@ -69,13 +64,13 @@ std::string rerunCommand(const Results& results, const AxisValues& technique, co
   const auto& settings = results.provenance.settings;
   const auto command = std::ranges::find(settings, kCommandSetting, [](const auto& setting) { return setting.first; });
   std::string text =
-      command == settings.end() ? "probebench run " + quoted(results.provenance.suiteName) : command->second;
+      command == settings.end() ? "probebench run " + shellWord(results.provenance.suiteName) : command->second;
   std::set<std::string> all;
   for (const CellResult& cell : results.cells) all.insert(cell.scene);
   const std::set<std::string> chosen(scenes.begin(), scenes.end());
   const std::string expression =
       keyExpression(tellingSettings(results, technique), chosen == all ? std::vector<std::string>() : scenes);
-  if (!expression.empty()) text += " --only " + quoted(expression);
+  if (!expression.empty()) text += " --only " + shellWord(expression);
   return text + " --out out/answer";
 }
 

@@ -1,0 +1,160 @@
+#include "bench/interval_runner.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "bench/interrupt.h"
+#include "bench/jackknife.h"
+#include "bench/truth.h"
+#include "scenes/image_io.h"
+
+namespace pb {
+namespace {
+
+constexpr std::size_t kMetricCount = std::size(kIntervalMetrics);
+constexpr std::size_t kMostBytes = std::size_t{512} << 20;  // of pictures in memory at a time
+
+using Values = std::array<std::optional<double>, kMetricCount>;
+
+Values valuesOf(const Metrics& metrics) {
+  Values values;
+  std::ranges::transform(kIntervalMetrics, values.begin(), [&](const char* key) { return metricValue(metrics, key); });
+  return values;
+}
+
+// The replicates of one region of one cell.
+class Replicates {
+ public:
+  void add(const Metrics& metrics) { all_.push_back(valuesOf(metrics)); }
+
+  MetricIntervals intervals(const Metrics& metrics) const {
+    const Values values = valuesOf(metrics);
+    MetricIntervals intervals;
+    for (std::size_t m = 0; m < kMetricCount; ++m) {
+      std::vector<double> replicates;
+      for (const Values& replicate : all_)
+        if (replicate[m]) replicates.push_back(*replicate[m]);
+      if (values[m] && replicates.size() >= 2)
+        intervals.emplace_back(kIntervalMetrics[m], jackknifeInterval(*values[m], replicates));
+    }
+    return intervals;
+  }
+
+ private:
+  std::vector<Values> all_;
+};
+
+MetricIntervals exactIntervals(const Metrics& metrics) {
+  const Values values = valuesOf(metrics);
+  MetricIntervals intervals;
+  for (std::size_t m = 0; m < kMetricCount; ++m)
+    if (values[m]) intervals.emplace_back(kIntervalMetrics[m], Interval{*values[m], *values[m]});
+  return intervals;
+}
+
+class IntervalRunner {
+ public:
+  explicit IntervalRunner(const RunContext& context) : c_(context) {}
+
+  void run(std::vector<CellResult>& cells) {
+    const auto groups = groupsOf(cells);
+    std::size_t count = 0;
+    for (const auto& [where, group] : groups) count += group.size();
+    c_.progress.begin("intervals", count);
+    for (const auto& [where, group] : groups) addToFrame(where.first, where.second, group);
+    c_.progress.end();
+  }
+
+ private:
+  using Group = std::vector<CellResult*>;
+
+  // By scene and frame: those with a picture.
+  std::map<std::pair<std::size_t, int>, Group> groupsOf(std::vector<CellResult>& cells) const {
+    std::map<std::string, CellResult*> byKey;
+    for (CellResult& cell : cells)
+      if (std::filesystem::exists(pictureOf(cell)) && !cell.pictures.rendered.empty()) byKey[cell.key()] = &cell;
+    std::map<std::pair<std::size_t, int>, Group> groups;
+    for (const PlannedSequence& sequence : c_.plan.sequences)
+      for (const int frame : sequence.frames)
+        if (const auto cell = byKey.find(makeCell(c_.suite, sequence, frame).key()); cell != byKey.end())
+          groups[{sequence.scene, frame}].push_back(cell->second);
+    return groups;
+  }
+
+  std::filesystem::path pictureOf(const CellResult& cell) const {
+    return c_.directory.folder() / cell.pictures.rendered;
+  }
+
+  std::shared_ptr<const Snapshot> snapshot(std::size_t scene, int frame) const {
+    return makeSnapshot(c_.scenes[scene], std::max(frame, 0), c_.suite.scenes[scene].camera, c_.suite.image.aspect());
+  }
+
+  void addToFrame(std::size_t scene, int frame, const Group& group) {
+    throwIfInterrupted();
+    std::vector<std::string> warnings;  // were given when the cells were scored
+    const TruthMaker maker = makerOf();
+    const ReferenceImage reference = maker.reference(snapshot(scene, frame), warnings);
+    if (reference.batches.size() < 2 || areEqual(reference.batches)) {
+      for (CellResult* cell : group) {
+        cell->intervals = exactIntervals(cell->metrics);
+        if (cell->maskMetrics) cell->maskIntervals = exactIntervals(*cell->maskMetrics);
+        c_.progress.step();
+      }
+      return;
+    }
+    const double exposure = c_.suite.scenes[scene].exposure;
+    const Mask mask = maker.make(snapshot(scene, frame), exposure, warnings)->mask;
+    const auto bytes = static_cast<std::size_t>(c_.suite.image.widthPx) *
+                       static_cast<std::size_t>(c_.suite.image.heightPx) * sizeof(glm::vec3);
+    const std::size_t most = std::max<std::size_t>(1, kMostBytes / bytes);
+    for (std::size_t begin = 0; begin < group.size(); begin += most)
+      addToCells(reference, exposure, mask,
+                 Group(group.begin() + static_cast<std::ptrdiff_t>(begin),
+                       group.begin() + static_cast<std::ptrdiff_t>(std::min(group.size(), begin + most))));
+  }
+
+  TruthMaker makerOf() {
+    if (!ids_) {
+      Technique noProbes;
+      noProbes.probes = ProbeUse::environmentOnly;
+      ids_.emplace(c_.device, noProbes, c_.suite.image.widthPx, c_.suite.image.heightPx, c_.suite.image.samplesPerAxis);
+    }
+    return {c_.store, c_.suite.image, c_.suite.reference, [this](const Snapshot& s) { return ids_->renderIds(s); }};
+  }
+
+  // One reference without one of its batches at a time: prepared ones are large.
+  void addToCells(const ReferenceImage& reference, double exposure, const Mask& mask, const Group& group) {
+    std::vector<Image> pictures(group.size());
+    for (std::size_t i = 0; i < group.size(); ++i) pictures[i] = rgbOf(readImage(pictureOf(*group[i]).string()).pixels);
+    std::vector<Replicates> whole(group.size()), masked(group.size());
+    const Image mean = reference.mean();
+    const MetricsSettings display{.exposure = exposure, .clampForDisplay = true};
+    for (const Image& batch : reference.batches) {
+      throwIfInterrupted();
+      const MetricsReference rest(leaveOneOut(mean, batch, reference.batches.size()), display);
+      tbb::parallel_for(std::size_t{0}, group.size(), [&](std::size_t i) {
+        const MetricsResult scores = rest.compare(pictures[i], mask.empty() ? nullptr : &mask);
+        whole[i].add(scores.whole);
+        if (scores.masked) masked[i].add(*scores.masked);
+      });
+    }
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      group[i]->intervals = whole[i].intervals(group[i]->metrics);
+      if (group[i]->maskMetrics) group[i]->maskIntervals = masked[i].intervals(*group[i]->maskMetrics);
+      c_.progress.step();
+    }
+  }
+
+  const RunContext& c_;
+  std::optional<RasterSequence> ids_;
+};
+
+}  // namespace
+
+void addIntervals(const RunContext& context, std::vector<CellResult>& cells) { IntervalRunner(context).run(cells); }
+
+}  // namespace pb

@@ -1,0 +1,194 @@
+#include "bench/metric_audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "bench/candidates.h"
+#include "bench/tables.h"
+
+namespace pb {
+namespace {
+
+constexpr const char* kFlip = "flip_hdr";
+constexpr const char* kRelmse = "relmse";
+// Those that are no functions of each other, of those that say how large an error is.
+constexpr const char* kMetrics[] = {kFlip,   "flip_ldr", "ssim", "ms_ssim", kRelmse,
+                                    "smape", "mae",      "mse",  "psnr",    "max_abs"};
+
+using Losses = std::vector<std::optional<Estimate>>;  // by metric
+
+Losses lossesOf(const CellResult& cell) {
+  const Region region = cell.maskMetrics ? Region::mask : Region::whole;
+  Losses losses;
+  for (const char* metric : kMetrics) {
+    Selection selection;
+    selection.metric = metric;
+    // SSIM of five scales is not defined on a mask.
+    losses.push_back(lossOf(cell, selection, metric == std::string("ms_ssim") ? Region::whole : region));
+  }
+  return losses;
+}
+
+// -1: a is better, 1: b is, 0: neither.
+int orderOf(const std::optional<Estimate>& a, const std::optional<Estimate>& b) {
+  if (!a || !b) return 0;
+  return a->isBelow(*b) ? -1 : b->isBelow(*a) ? 1 : 0;
+}
+
+// Cells that answer the same question.
+std::vector<std::vector<const CellResult*>> groupsOf(const std::vector<CellResult>& cells) {
+  std::map<std::tuple<std::string, std::string, int>, std::size_t> places;
+  std::vector<std::vector<const CellResult*>> groups;
+  for (const CellResult& cell : cells) {
+    const auto [place, isNew] = places.try_emplace({cell.scene, cell.camera, cell.frame}, groups.size());
+    if (isNew) groups.emplace_back();
+    groups[place->second].push_back(&cell);
+  }
+  return groups;
+}
+
+class Audit {
+ public:
+  void add(const std::vector<const CellResult*>& group) {
+    std::vector<Losses> losses;
+    for (const CellResult* cell : group) losses.push_back(lossesOf(*cell));
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (std::size_t j = i + 1; j < group.size(); ++j) {
+        count(losses[i], losses[j]);
+        if (const auto dispute = disputeOf(*group[i], *group[j], losses[i], losses[j])) disputes_.push_back(*dispute);
+      }
+  }
+
+  MetricAudit result(std::size_t disputes) const {
+    MetricAudit audit;
+    audit.pairs = pairs_;
+    audit.disputed = disputes_.size();
+    for (std::size_t a = 0; a < kCount; ++a) {
+      if (ordered_[a] == 0) continue;
+      audit.metrics.emplace_back(kMetrics[a]);
+      for (std::size_t b = a + 1; b < kCount; ++b)
+        if (ordered_[b] > 0) audit.agreements.push_back({kMetrics[a], kMetrics[b], tauB(a, b)});
+    }
+    audit.disputes = largest(disputes);
+    return audit;
+  }
+
+ private:
+  static constexpr std::size_t kCount = std::size(kMetrics);
+  static constexpr std::size_t kFlipIndex = 0, kRelmseIndex = 4;
+
+  void count(const Losses& a, const Losses& b) {
+    ++pairs_;
+    int orders[kCount];
+    for (std::size_t m = 0; m < kCount; ++m) {
+      orders[m] = orderOf(a[m], b[m]);
+      if (orders[m] != 0) ++ordered_[m];
+    }
+    for (std::size_t m = 0; m < kCount; ++m)
+      for (std::size_t n = m + 1; n < kCount; ++n) balance_[m][n] += orders[m] * orders[n];
+  }
+
+  double tauB(std::size_t a, std::size_t b) const {
+    return static_cast<double>(balance_[a][b]) /
+           std::sqrt(static_cast<double>(ordered_[a]) * static_cast<double>(ordered_[b]));
+  }
+
+  static std::optional<MetricDispute> disputeOf(const CellResult& a, const CellResult& b, const Losses& lossesA,
+                                                const Losses& lossesB) {
+    const int flip = orderOf(lossesA[kFlipIndex], lossesB[kFlipIndex]);
+    const int relmse = orderOf(lossesA[kRelmseIndex], lossesB[kRelmseIndex]);
+    if (flip * relmse >= 0) return std::nullopt;
+    const auto factor = [](double x, double y) { return std::max(x, y) / std::min(x, y); };
+    return MetricDispute{flip < 0 ? &a : &b, relmse < 0 ? &a : &b,
+                         factor(lossesA[kFlipIndex]->value, lossesB[kFlipIndex]->value),
+                         factor(lossesA[kRelmseIndex]->value, lossesB[kRelmseIndex]->value)};
+  }
+
+  std::vector<MetricDispute> largest(std::size_t count) const {
+    std::vector<MetricDispute> sorted = disputes_;
+    std::ranges::stable_sort(sorted, std::greater(),
+                             [](const MetricDispute& d) { return std::min(d.flipFactor, d.relmseFactor); });
+    std::vector<MetricDispute> chosen;
+    std::set<const CellResult*> shown;
+    for (const MetricDispute& dispute : sorted) {
+      if (chosen.size() == count) break;
+      if (shown.contains(dispute.byFlip) || shown.contains(dispute.byRelmse)) continue;
+      shown.insert({dispute.byFlip, dispute.byRelmse});
+      chosen.push_back(dispute);
+    }
+    return chosen;
+  }
+
+  std::size_t pairs_ = 0;
+  std::size_t ordered_[kCount] = {};           // pairs that the metric orders: P - T
+  std::int64_t balance_[kCount][kCount] = {};  // C - D
+  std::vector<MetricDispute> disputes_;
+};
+
+Table agreementTable(const MetricAudit& audit) {
+  Table table{{{"tau-b", Align::left}}, {}};
+  for (std::size_t i = 1; i < audit.metrics.size(); ++i) table.columns.push_back({audit.metrics[i]});
+  for (std::size_t i = 0; i + 1 < audit.metrics.size(); ++i) {
+    std::vector<std::string>& row = table.rows.emplace_back(1, audit.metrics[i]);
+    for (std::size_t j = 1; j < audit.metrics.size(); ++j) {
+      const auto found = std::ranges::find_if(audit.agreements, [&](const MetricAgreement& agreement) {
+        return agreement.a == audit.metrics[i] && agreement.b == audit.metrics[j];
+      });
+      row.push_back(found == audit.agreements.end() ? "" : fmt::format("{:.2f}", found->tauB));
+    }
+  }
+  return table;
+}
+
+// Of the settings in which the two differ.
+std::string settingsText(const CellResult& cell, const CellResult& other) {
+  std::string text;
+  for (std::size_t i = 0; i < cell.technique.size(); ++i)
+    if (i >= other.technique.size() || cell.technique[i] != other.technique[i])
+      text += fmt::format("{}{}={}", text.empty() ? "" : " ", cell.technique[i].first, cell.technique[i].second);
+  return text;
+}
+
+Table disputeTable(const MetricAudit& audit) {
+  Table table{{{"scene", Align::left},
+               {"frame"},
+               {"better by FLIP-HDR", Align::left},
+               {"by factor"},
+               {"better by relMSE", Align::left},
+               {"by factor"}},
+              {}};
+  for (const MetricDispute& d : audit.disputes)
+    table.rows.push_back({d.byFlip->scene, fmt::format("{}", d.byFlip->frame), settingsText(*d.byFlip, *d.byRelmse),
+                          formatSignificant(d.flipFactor), settingsText(*d.byRelmse, *d.byFlip),
+                          formatSignificant(d.relmseFactor)});
+  return table;
+}
+
+}  // namespace
+
+MetricAudit auditMetrics(const std::vector<CellResult>& cells, std::size_t disputes) {
+  Audit audit;
+  for (const auto& group : groupsOf(cells)) audit.add(group);
+  return audit.result(disputes);
+}
+
+std::string metricAuditText(const MetricAudit& audit) {
+  if (audit.metrics.size() < 2) return {};
+  std::string text = fmt::format(
+      "## Do the metrics agree?\n\n{} pairs of techniques on the same scene and frame, ordered by each metric (on the "
+      "mask where there is one; MS-SSIM on the whole image). Kendall's tau-b: 1 where two metrics order all pairs "
+      "alike, -1 where oppositely; pairs within their intervals count as ties.\n\n{}\n",
+      audit.pairs, toMarkdown(agreementTable(audit)));
+  text += fmt::format("FLIP-HDR and relMSE order {} pairs oppositely{}\n\n", audit.disputed,
+                      audit.disputes.empty() ? "." : ", most clearly these:");
+  if (!audit.disputes.empty()) text += toMarkdown(disputeTable(audit)) + '\n';
+  return text;
+}
+
+}  // namespace pb
