@@ -1,0 +1,118 @@
+// Time of frames on llvmpipe or a GPU: what is compared is rendered in turns, frame by frame, and medians are taken, so
+// that other programs on the machine disturb both sides alike.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <vector>
+
+#include "raster/renderer.h"
+#include "scenes/builtin.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+namespace {
+
+constexpr int kWidthPx = 640, kHeightPx = 360;
+constexpr int kFrames = 9;
+
+RasterDevice& device() {
+#ifdef PROBEBENCH_OSMESA
+  static RasterDevice device(GlBackend::osmesa);
+#else
+  static RasterDevice device(GlBackend::egl);
+#endif
+  return device;
+}
+
+// Of all threads of the process.
+double cpuMs() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+double wallMs() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(now).count();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+std::shared_ptr<const Snapshot> mirrors(std::int64_t count) {
+  const auto scene = std::make_shared<const Scene>(makeBuiltinScene(parseSpec(fmt::format("mirrors?count={}", count))));
+  return makeSnapshot(scene, 0, "", static_cast<double>(kWidthPx) / kHeightPx);
+}
+
+Technique techniqueOf(std::int64_t bounces, std::int64_t resolution, Iterations iterations) {
+  Technique technique;
+  technique.bounces = static_cast<int>(bounces);
+  technique.resolution = static_cast<int>(resolution);
+  technique.iterations = iterations;
+  return technique;
+}
+
+// Frames of a technique, with the time of each.
+class TimedFrames {
+ public:
+  TimedFrames(const Technique& technique, std::shared_ptr<const Snapshot> snapshot)
+      : snapshot_(std::move(snapshot)), sequence_(device(), technique, kWidthPx, kHeightPx, 1) {
+    // The first frame compiles shaders and fills maps, the second one sees all of them for the first time.
+    for (int warmup = 0; warmup < 2; ++warmup) sequence_.renderFrame(*snapshot_);
+    sequence_.finish();
+  }
+
+  // Returns the frame's wall time.
+  double render() {
+    const double wallBefore = wallMs(), cpuBefore = cpuMs();
+    sequence_.renderFrame(*snapshot_);
+    sequence_.finish();
+    wallMs_.push_back(wallMs() - wallBefore);
+    cpuMs_.push_back(cpuMs() - cpuBefore);
+    return wallMs_.back();
+  }
+
+  double medianWallMs() const { return median(wallMs_); }
+  double medianCpuMs() const { return median(cpuMs_); }
+
+ private:
+  std::shared_ptr<const Snapshot> snapshot_;
+  RasterSequence sequence_;
+  std::vector<double> wallMs_, cpuMs_;
+};
+
+// B incremental iterations against one iteration, which records nothing: `ratio` is what is promised to stay below 1.35
+// for 8 mirrors, 3 iterations and 256 texels or more.
+void incremental(benchmark::State& state) {
+  const std::int64_t count = state.range(0), bounces = state.range(1), resolution = state.range(2);
+  TimedFrames once(techniqueOf(1, resolution, Iterations::bruteForce), mirrors(count));
+  TimedFrames repeated(techniqueOf(bounces, resolution, Iterations::incremental), mirrors(count));
+  for (auto iteration : state) {
+    once.render();
+    state.SetIterationTime(1e-3 * repeated.render());
+  }
+  state.counters["ratio"] = repeated.medianWallMs() / once.medianWallMs();
+  state.counters["ratio_cpu"] = repeated.medianCpuMs() / once.medianCpuMs();
+  state.counters["ms"] = repeated.medianWallMs();
+  state.counters["cpu_ms"] = repeated.medianCpuMs();
+  state.counters["once_ms"] = once.medianWallMs();
+  state.counters["once_cpu_ms"] = once.medianCpuMs();
+}
+BENCHMARK(incremental)
+    ->ArgNames({"N", "B", "R"})
+    ->ArgsProduct({{5, 8}, {2, 3}, {64, 128, 256, 512, 1024}})
+    ->Iterations(kFrames)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace pb
+
+BENCHMARK_MAIN();
