@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "bench/recommend.h"
 #include "bench/sections.h"
 #include "bench/tables.h"
 #include "scenes/error.h"
@@ -403,13 +404,18 @@ std::string fixedText(std::vector<std::string> shared, const AxisValues& default
                      hasOthers ? "; other axes that don't vary stand at their defaults" : "");
 }
 
+std::string answerText(const Results& results, const AxisValues& defaults) {
+  const std::vector<std::string> lines = summaryLines(results, {.defaults = defaults});
+  return lines.empty() ? "" : fmt::format("- {}\n\n", fmt::join(lines, "\n- "));
+}
+
 }  // namespace
 
 std::string makeReport(const Results& results, const AxisValues& defaults) {
   const std::vector<Section> sections = sectionsOf(results.cells);
   std::string text = fmt::format("# {}: error and cost of reflection probes\n\n{} cells, control {}.\n\n",
                                  results.provenance.suiteName, results.cells.size(), results.provenance.controlOutcome);
-  text += kLegend;
+  text += answerText(results, defaults) + kLegend;
   const std::vector<std::string> shared = sharedAxes(sections);
   text += fixedText(shared, defaults);
   for (const Section& section : sections) text += sectionText(section, shared);

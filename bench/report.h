@@ -8,7 +8,8 @@
 
 namespace pb {
 
-// defaults: of the axes; those that stand there in the whole run need no words.
+// What was found in a few lines, then all tables. defaults: of the axes; those that stand there in the whole run need
+// no words.
 std::string makeReport(const Results& results, const AxisValues& defaults = {});
 
 // Makes the directory if it is absent; an environment Error if that fails.

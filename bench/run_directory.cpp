@@ -22,8 +22,9 @@ constexpr const char* kAttributionJournal = "attribution.jsonl";
 // What a run (and, for report.csv, `probebench report -o`) writes, and what it removes of an earlier one; nothing else
 // in the folder is touched.
 constexpr const char* kFiles[] = {kJournal,         kAttributionJournal, "results.json", "results.csv",
-                                  "benchmark.json", "report.md",         "report.csv"};
+                                  "benchmark.json", "report.md",         "report.csv",   "report.html"};
 constexpr const char* kImages = "images";
+constexpr const char* kFolders[] = {kImages, "report-pictures"};
 
 void makeFolder(const fs::path& folder) {
   std::error_code failure;
@@ -99,8 +100,10 @@ void RunDirectory::removeEarlierRun() const {
     fs::remove(folder_ / file, failure);
     if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / file).string(), failure.message());
   }
-  fs::remove_all(folder_ / kImages, failure);
-  if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / kImages).string(), failure.message());
+  for (const char* subfolder : kFolders) {
+    fs::remove_all(folder_ / subfolder, failure);
+    if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / subfolder).string(), failure.message());
+  }
 }
 
 void RunDirectory::readJournals() {

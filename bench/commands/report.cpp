@@ -22,8 +22,6 @@ struct ReportOptions {
   double pageMb = kDefaultPageMb;
 };
 
-std::string pageOf(const std::string& folder) { return folder + "/report.html"; }
-
 int reportRun(const ReportOptions& options) {
   const Results results = readResults(options.run);
   const AxisValues defaults = describe(Technique());
@@ -31,8 +29,8 @@ int reportRun(const ReportOptions& options) {
   fmt::print("{}", options.brief ? makeBrief(results, answer) : makeReport(results, defaults));
   if (options.output.empty()) return 0;
   writeReport(results, options.output, defaults);
-  writePage({{"", options.run, results}}, answer, pageOf(options.output), options.pageMb);
-  fmt::print(stderr, "report: {}\n", pageOf(options.output));
+  writePage({{"", options.run, results}}, answer, pageOfRun(options.output), options.pageMb);
+  fmt::print(stderr, "report: {}\n", pageOfRun(options.output));
   return 0;
 }
 
@@ -47,8 +45,8 @@ int reportChange(const ReportOptions& options) {
   writeFileAtomically(options.output + "/report.md", text);
   writeFileAtomically(options.output + "/report.csv", comparisonToCsv(before, after, defaults));
   writePage({{"before", options.run, before}, {"after", options.other, after}},
-            summaryLines(after, {options.other, defaults}), pageOf(options.output), options.pageMb);
-  fmt::print(stderr, "report: {}\n", pageOf(options.output));
+            summaryLines(after, {options.other, defaults}), pageOfRun(options.output), options.pageMb);
+  fmt::print(stderr, "report: {}\n", pageOfRun(options.output));
   return 0;
 }
 

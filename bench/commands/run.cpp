@@ -13,6 +13,7 @@
 #include "bench/provenance.h"
 #include "bench/recommend.h"
 #include "bench/report.h"
+#include "bench/report/page.h"
 #include "bench/runner.h"
 #include "bench/shell_word.h"
 #include "scenes/error.h"
@@ -73,8 +74,12 @@ int finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& sui
   const Results results{std::move(provenance), suite.tolerance,          outcome.cells,
                         suite.warnTolerance,   sceneTolerancesOf(suite), outcome.attribution};
   directory.finish(results, outcome.benchmarkJson);
+  const std::string folder = directory.folder().string();
+  const std::vector<std::string> answer = summaryLines(results, {folder, describe(Technique())});
+  writePage({{"", folder, results}}, answer, pageOfRun(folder));
   fmt::print("{}", makeReport(results, describe(Technique())));
-  fmt::print(stderr, "report: {}\n", (directory.folder() / "report.md").string());
+  if (!answer.empty()) fmt::print(stderr, "\n{}\n\n", fmt::join(answer, "\n"));
+  fmt::print(stderr, "report: {}\n", pageOfRun(folder));
   if (outcome.noisyReferences.empty()) return 0;
   throw Error(Failure::inconclusive, fmt::format("{} references are too noisy; the first: {}",
                                                  outcome.noisyReferences.size(), outcome.noisyReferences.front()));

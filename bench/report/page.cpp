@@ -51,10 +51,16 @@ std::string inlineJson(const Json& json) {
   return text;
 }
 
+// Beside the page, for pictures that have no place in it.
+std::string picturesFolderOf(const std::string& page) {
+  const fs::path path = page;
+  return (path.parent_path() / (path.stem().string() + "-pictures")).string();
+}
+
 // Where the blobs of the page go: into it, or beside it.
 class Blobs {
  public:
-  explicit Blobs(const fs::path& page) : folder_(page.parent_path() / (page.stem().string() + "-pictures")) {}
+  explicit Blobs(const std::string& page) : folder_(picturesFolderOf(page)) {}
 
   // Always in the page.
   std::size_t addInline(const std::string& base64) {
@@ -128,6 +134,8 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 }
 
 }  // namespace
+
+std::string pageOfRun(const std::string& folder) { return (fs::path(folder) / "report.html").string(); }
 
 void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file,
                double maxMb) {

@@ -15,12 +15,14 @@ struct PageRun {
   const Results& results;
 };
 
+// Where a folder of a run or a report has its page.
+std::string pageOfRun(const std::string& folder);
+
 inline constexpr double kDefaultPageMb = 15;
 
-// Writes `file`. Pictures with which it would be larger than maxMb (10^6 bytes) stand in a folder beside it
-// ("report.html"
-// -> "report-pictures/"). The last run is the page's subject, one before it what it is compared with. `answer`: lines
-// that say what was found, may be empty. Throws environment Errors.
+// Writes `file`. Pictures with which it would be larger than maxMb (10^6 bytes) stand in a folder beside it: that of
+// report.html is report-pictures/. The last run is the page's subject, one before it what it is compared with.
+// `answer`: lines that say what was found, may be empty. Throws environment Errors.
 void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file,
                double maxMb = kDefaultPageMb);
 

@@ -8,7 +8,7 @@ import {costNamed} from "./error_charts.js";
 import {COSTS, METRICS, makeModel} from "./model.js";
 import {Pictures} from "./pictures.js";
 import {findCell, linkTo, onPlace, readPlace, replacePlace} from "./places.js";
-import {answerSection, bestOf, cellTable, chartsOf, circumstancesSection, firstLine, overviewTable} from "./sections.js";
+import {aboutView, answerSection, bestOf, cellTable, chartsOf, circumstancesSection, firstLine, overviewTable} from "./sections.js";
 import {Viewer} from "./viewer.js";
 
 class Page {
@@ -46,11 +46,12 @@ class Page {
     document.getElementById("subtitle").textContent = firstLine(provenance, cells.length);
     this.controls = element("div", {class: "controls sticky"});
     this.charts = element("div");
+    this.about = element("p", {class: "note"});
     this.table = element("div");
     this.details = element("div", {class: "details"}, element("p", {}, "Choose a technique in the table or a point in a chart."));
     const overview = overviewTable(this.model, (view) => ({...this.questionFor(view), metric: "flip_hdr"}), (view) => { this.setting("view", view); document.getElementById("errors").scrollIntoView(); });
     document.getElementById("main").append(...[answerSection(this.meta.answer), section("overview", "Overview", overview), this.meta.comparison && comparisonSection(this.meta.comparison, this.model), this.controls,
-      section("errors", "Errors and costs", this.charts), section("techniques", "Techniques", this.table), section("cell", "Pictures and numbers of a cell", this.details), circumstancesSection(this.model)].filter(Boolean));
+      section("errors", "Errors and costs", this.about, this.charts), section("techniques", "Techniques", this.table), section("cell", "Pictures and numbers of a cell", this.details), circumstancesSection(this.model)].filter(Boolean));
     document.getElementById("contents").append(...[...document.querySelectorAll("main > section")].map((s) => element("a", {href: `#${s.id}`}, s.querySelector("h2").textContent)));
     this.fillView();
   }
@@ -75,6 +76,7 @@ class Page {
 
   fillView() {
     this.fillControls();
+    this.about.textContent = aboutView(this.settings.view);
     const {charts, elements} = chartsOf(this.context);
     refill(this.charts, elements);
     charts.forEach((chart) => chart.draw());
@@ -125,14 +127,16 @@ class Page {
 
 function startTheme() {
   const select = document.getElementById("theme");
-  const apply = (theme) => {
+  // Charts are drawn for the width that they are printed at: scaled down, their text could not be read.
+  const apply = (theme, printing = false) => {
     document.documentElement.dataset.theme = theme;
+    document.documentElement.classList.toggle("printing", printing);
     redrawCharts();
   };
   let chosen = "auto";
   select.addEventListener("change", () => apply(chosen = select.value));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawCharts);
-  globalThis.addEventListener("beforeprint", () => apply("light"));
+  globalThis.addEventListener("beforeprint", () => apply("light", true));
   globalThis.addEventListener("afterprint", () => apply(chosen));
 }
 

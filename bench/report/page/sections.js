@@ -41,6 +41,11 @@ export function overviewTable(model, questionFor, chooseView) {
   ]}).element;
 }
 
+export function aboutView(view) {
+  const axes = view.axes.map((axis) => `${axis.name} ${axis.values.join(", ")}`).join("; ");
+  return `${view.title}, ${view.frames.length > 1 ? `frames ${view.frames.join(" ")}` : `frame ${view.frames[0]}`}${axes ? `: ${axes}` : ""}`;
+}
+
 // Draws when it is in the page.
 export function chartsOf(context) {
   const view = context.view();
