@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "raster/probe_views.h"
 #include "raster/reflection.h"
 #include "reference/renderer.h"
 #include "scenes/gltf_load.h"
@@ -135,6 +136,43 @@ TEST_P(RasterWithoutProbe, NearestMaps_AreLookedUpAsIfTheyWereTheirOwn) {
                 shownWithMapsOf(device(), technique, *snapshot, owning));
     }
   }
+}
+
+std::array<Image, 6> stripedFaces(int size, const vec3& color) {
+  std::array<Image, 6> faces;
+  for (Image& face : faces) {
+    face = Image(size, size);
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) face(x, y) = x * 8 / size % 2 == 0 ? color : kBlack;
+  }
+  return faces;
+}
+
+// Maps of other resolutions have other levels for one roughness.
+TEST_P(RasterWithoutProbe, RoughSurfacesWhoseNearestProbeBecomesAnother_ReadTheLevelsOfItsResolution) {
+  Scene scene = makeEmptyScene(kRed);
+  addBall(scene, vec3(0.0f), 0.8f, makeMetalMaterial("rough", vec3(0.2f), vec3(4.0f), 0.5f), false);
+  addBall(scene, {1.0f, 0.0f, 0.0f}, 0.3f, makeMirrorMaterial("near"), true);
+  addBall(scene, {3.0f, 0.0f, -20.0f}, 0.3f, makeMirrorMaterial("far"), true);
+  const auto before = snapshotOf(std::move(scene));
+  Snapshot after = *before;
+  after.instances[0].nearestProbe = 1;
+  Technique technique = withResolution(256);
+  technique.resolutionScale = ResolutionScale::distance;
+  technique.filter = ProbeFilter::boxMips;
+  technique.probes = ProbeUse::given;
+  const std::vector<ProbeView> probes = probeViews(technique, before, 128).probes;
+  ASSERT_NE(probes[0].resolutionPx, probes[1].resolutionPx);
+  const auto lastOf = [&](const std::vector<const Snapshot*>& frames) {
+    RasterSequence sequence(device(), technique, 128, 128, 1);
+    for (int probe = 0; probe < 2; ++probe)
+      sequence.setProbe(probe,
+                        stripedFaces(probes[static_cast<std::size_t>(probe)].resolutionPx, probe == 0 ? kRed : kWhite));
+    for (const Snapshot* frame : frames) sequence.renderFrame(*frame);
+    return sequence.readImage();
+  };
+  EXPECT_EQ(lastOf({&*before, &after}), lastOf({&after}));
+  EXPECT_NE(lastOf({&*before}), lastOf({&after}));
 }
 
 // The first probe looks at the mirror at -X, which shows what is behind the probe, at +X: green there. In its own
