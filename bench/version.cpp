@@ -1,6 +1,7 @@
 #include "bench/version.h"
 
 #include <fmt/chrono.h>
+#include <meshoptimizer.h>
 #include <tbb/version.h>
 
 #include <ctime>
@@ -23,6 +24,7 @@ std::map<std::string, std::string> libraryVersions() {
           {"TBB", TBB_runtime_version()},
           {"compiler", __VERSION__},
           {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+          {"meshoptimizer", fmt::format("{}.{}", MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION / 10 % 100)},
           {"glm", fmt::format("{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH)}};
 }
 

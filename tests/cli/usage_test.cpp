@@ -114,7 +114,7 @@ TEST(Help, GoesToStandardOutputAndNamesEveryCommand) {
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_EQ(result.err, "");
   for (const char* command :
-       {"run", "render", "compare", "report", "check", "bless", "merge", "axes", "scenes", "certify"})
+       {"run", "render", "compare", "report", "check", "bless", "merge", "axes", "scenes", "certify", "selftest-gate"})
     EXPECT_THAT(result.out, HasSubstr(std::string("\n  ") + command + " "));
 }
 

@@ -1,0 +1,154 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/error_message.h"
+#include "tests/unit/gate_fixture.h"
+
+namespace pb {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Costs of the samples: interval +-2 %, plain frame 4 ms, so that 0.2 ms are 0.05 of a ratio.
+struct CostRule {
+  const char* name;
+  double before, after, plainMs;
+  Verdict verdict;
+};
+
+class GateCostRule : public testing::TestWithParam<CostRule> {};
+
+TEST_P(GateCostRule, GivesItsVerdict) {
+  const CostRule& rule = GetParam();
+  Results after = runWith(0.5, rule.after);
+  after.cells[0].cost->plainMs = rule.plainMs;
+  const Results rerun = after;
+  EXPECT_EQ(check(after, baselineOf(runWith(0.5, rule.before)), {}, &rerun).verdict, rule.verdict);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, GateCostRule,
+                         testing::Values(CostRule{"equal", 3.0, 3.0, 4, Verdict::pass},
+                                         CostRule{"slower_by_24_percent", 3.0, 3.72, 4, Verdict::pass},
+                                         CostRule{"slower_by_26_percent", 3.0, 3.78, 4, Verdict::fail},
+                                         CostRule{"faster_by_a_factor_of_1_24", 3.72, 3.0, 4, Verdict::pass},
+                                         CostRule{"faster_by_a_factor_of_1_26", 3.78, 3.0, 4, Verdict::fail},
+                                         CostRule{"small_in_milliseconds", 1.0, 1.9, 0.2, Verdict::pass},
+                                         CostRule{"no_longer_small", 1.0, 2.1, 0.2, Verdict::fail}),
+                         [](const auto& test) { return test.param.name; });
+
+// Six repetitions about `ratio`, spread by a factor of `spread` either way.
+Results runWithRatios(double ratio, double spread) {
+  Results run = runWith(0.5, ratio);
+  run.cells[0].cost->ratios = {ratio / spread, ratio, ratio * spread, ratio, ratio * spread, ratio / spread};
+  return run;
+}
+
+TEST(GateCost, ChangeThatChanceCanMake_IsNoFinding) {
+  EXPECT_EQ(verdictOf(runWithRatios(3.0, 1.02), runWithRatios(6.0, 1.02)), Verdict::inconclusive);
+  EXPECT_EQ(verdictOf(runWithRatios(3.0, 5.0), runWithRatios(6.0, 5.0)), Verdict::pass);
+}
+
+// Of baselines from before the repetitions were stored.
+TEST(GateCost, WithoutRepetitions_IsJudgedByTheIntervals) {
+  Results after = runWith(0.5, 6.0);
+  EXPECT_EQ(verdictOf(runWith(0.5, 3.0), after), Verdict::inconclusive);
+  after.cells[0].cost->ratioLow = 1.0;
+  EXPECT_EQ(verdictOf(runWith(0.5, 3.0), after), Verdict::pass);
+}
+
+TEST(GateCost, UnconfirmedChange_IsInconclusiveAndNamesTheSequence) {
+  const Results after = runWith(0.5, 6.0);
+  const GateReport report = check(after, baselineOf(runWith(0.5, 3.0)));
+  EXPECT_EQ(report.verdict, Verdict::inconclusive);
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].level, Level::unconfirmed);
+  EXPECT_THAT(report.unconfirmedCosts(), testing::ElementsAre(after.cells[0].sequenceKey()));
+}
+
+struct Confirmation {
+  const char* name;
+  double second;  // ratio of the second measurement, where the baseline has 3 and the run 6
+  Verdict verdict;
+};
+
+class GateConfirmation : public testing::TestWithParam<Confirmation> {};
+
+TEST_P(GateConfirmation, GivesItsVerdict) {
+  const Results rerun = runWith(0.5, GetParam().second);
+  const GateReport report = check(runWith(0.5, 6.0), baselineOf(runWith(0.5, 3.0)), {}, &rerun);
+  EXPECT_EQ(report.verdict, GetParam().verdict);
+  EXPECT_EQ(report.notes.size(), report.verdict == Verdict::pass ? 1u : 0u);  // "... did not confirm ..."
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, GateConfirmation,
+                         testing::Values(Confirmation{"the_same", 6.0, Verdict::fail},
+                                         Confirmation{"also_slower", 4.0, Verdict::fail},
+                                         Confirmation{"as_before", 3.0, Verdict::pass},
+                                         Confirmation{"within_the_floor", 3.6, Verdict::pass},
+                                         Confirmation{"the_other_way", 1.5, Verdict::pass}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(GateCost, SecondMeasurementWithoutTheSequence_ConfirmsNothing) {
+  Results rerun = runWith(0.5, 6.0);
+  rerun.cells.clear();
+  EXPECT_EQ(check(runWith(0.5, 6.0), baselineOf(runWith(0.5, 3.0)), {}, &rerun).verdict, Verdict::inconclusive);
+}
+
+TEST(GateCost, SecondMeasurementOfAnotherProgramSuiteOrMachine_IsRefused) {
+  const Results run = runWith(0.5, 6.0);
+  const Baseline baseline = baselineOf(runWith(0.5, 3.0));
+  for (std::string Provenance::*member :
+       {&Provenance::gitHash, &Provenance::suiteHash, &Provenance::cpu, &Provenance::glRenderer}) {
+    Results rerun = run;
+    rerun.provenance.*member = "other";
+    EXPECT_THAT(messageOf([&] { check(run, baseline, {}, &rerun); }), HasSubstr("the second measurement must be"));
+  }
+}
+
+// log(5.75 / 3) is 2.9 standard errors, p = 0.004: significant alone, not among 40.
+TEST(GateCost, ManyComparisons_AreCorrected) {
+  const auto withCosts = [](int count, double ratio) {
+    Results run = runWith(0.5, ratio);
+    run.cells[0].cost->ratioLow = ratio / 1.37;
+    run.cells[0].cost->ratioHigh = ratio * 1.37;
+    for (int i = 1; i < count; ++i) {
+      run.cells.push_back(run.cells[0]);
+      run.cells.back().technique[0].second = std::to_string(1000 + i);
+    }
+    return run;
+  };
+  EXPECT_EQ(verdictOf(withCosts(1, 3.0), withCosts(1, 5.75)), Verdict::inconclusive);
+  EXPECT_EQ(verdictOf(withCosts(40, 3.0), withCosts(40, 5.75)), Verdict::pass);
+}
+
+TEST(Gate, CostOfAnotherMachine_IsNotComparedAndSaysSo) {
+  const Results before = runWith(0.5, 3.0);
+  Results cpu = runWith(0.5, 9.0), threads = cpu, unmeasured = cpu;
+  cpu.provenance.cpu = "other CPU";
+  threads.provenance.threads = 64;
+  unmeasured.cells[0].cost.reset();
+  for (const auto& [run, why] :
+       {std::pair{cpu, "other CPU"}, std::pair{threads, "64"}, std::pair{unmeasured, "this run did not measure it"}}) {
+    const GateReport report = check(run, baselineOf(before));
+    EXPECT_EQ(report.verdict, Verdict::pass);
+    EXPECT_EQ(report.costsCompared, 0u);
+    EXPECT_THAT(report.notes, testing::Contains(AllOf(HasSubstr("Cost was not compared"), HasSubstr(why))));
+  }
+}
+
+TEST(Gate, CostMissingForOneSequence_Fails) {
+  const Results before = samples::makeResults();
+  Results after = before;
+  for (CellResult& cell : after.cells)
+    if (cell.sequenceKey() == before.cells[0].sequenceKey()) cell.cost.reset();
+  const GateReport report = check(after, baselineOf(before));
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].kind, FindingKind::missing);
+  EXPECT_EQ(report.findings[0].quantity, "cost");
+}
+
+}  // namespace
+}  // namespace pb
