@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ namespace pb {
 // scene is measured while it moves), limited so that slow policies stay measurable.
 inline constexpr int kMaxBlockFrames = 120;
 int blockFrames(const Technique& technique, int probes, int measuredFrames);
+
+// Quantiles (bench/statistics.h) of the times of single frames: what amortised refresh is about.
+CostPeaks peaksOf(std::span<const double> frameMs);
 
 // The cost model: renders of the scene per frame, 1 + B * scheduled faces, mean over `frames` after the first of
 // `snapshots` was captured completely.

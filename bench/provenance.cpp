@@ -20,6 +20,7 @@ std::vector<std::pair<std::string, std::string>> settingsOf(const Suite& suite) 
           {"reference diffuse", printDiffuse(reference.diffuse)},
           {"reference diffuse_depth", reference.diffuseDepth ? std::to_string(*reference.diffuseDepth) : "unlimited"},
           {"reference spp", fmt::format("{} a primary sample", reference.spp)},
+          {"reference matched", reference.matched ? "yes" : "no"},
           {"reference max_noise", reference.maxNoise ? fmt::format("{:g}", *reference.maxNoise) : "none"},
           {"cost repetitions", std::to_string(suite.cost.repetitions)}};
 }

@@ -10,12 +10,16 @@
 #include <numeric>
 #include <set>
 
+#include "bench/attribution_runner.h"
 #include "bench/axes.h"
+#include "bench/bounce_depth.h"
 #include "bench/cost.h"
 #include "bench/cost_request.h"
 #include "bench/external.h"
+#include "bench/integrity.h"
 #include "bench/interrupt.h"
-#include "bench/noise.h"
+#include "bench/interval_runner.h"
+#include "bench/score.h"
 #include "bench/truth.h"
 #include "bench/version.h"
 #include "scenes/error.h"
@@ -96,6 +100,8 @@ class Runner {
     RunOutcome outcome;
     outcome.skipped = skipped_;
     outcome.cells = orderedCells();
+    addIntervals(c_, outcome.cells);
+    outcome.attribution = attribute(c_, outcome.cells);
     if (c_.suite.cost.repetitions > 0) outcome.benchmarkJson = measureCost(outcome.cells);
     outcome.noisyReferences = describeNoisyReferences(outcome.cells);
     return outcome;
@@ -103,6 +109,7 @@ class Runner {
 
  private:
   using Truths = std::map<int, std::shared_ptr<const Truth>>;  // by frame
+  using DepthsByFrame = std::map<int, std::set<int>>;
 
   const SuiteScene& suiteScene(std::size_t scene) const { return c_.suite.scenes[scene]; }
 
@@ -123,6 +130,17 @@ class Runner {
     return open;
   }
 
+  // The open frames and the measured frames before them, to which their flicker looks back.
+  static std::vector<int> framesToRead(const PlannedSequence& sequence, const std::vector<int>& open) {
+    std::vector<int> read;
+    for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
+      const bool precedesOpen =
+          i + 1 < sequence.frames.size() && std::ranges::binary_search(open, sequence.frames[i + 1]);
+      if (precedesOpen || std::ranges::binary_search(open, sequence.frames[i])) read.push_back(sequence.frames[i]);
+    }
+    return read;
+  }
+
   void measureErrors() {
     for (std::size_t scene = 0; scene < c_.suite.scenes.size(); ++scene) measureScene(scene);
   }
@@ -130,23 +148,56 @@ class Runner {
   // The truths of one scene at a time are in memory.
   void measureScene(std::size_t scene) {
     std::vector<const PlannedSequence*> sequences;
-    std::set<int> frames;
     std::size_t cells = 0;
     for (const PlannedSequence& sequence : c_.plan.sequences) {
       if (sequence.scene != scene) continue;
-      const std::vector<int> open = openFrames(sequence);
-      if (open.empty()) continue;
-      sequences.push_back(&sequence);
-      frames.insert(open.begin(), open.end());
-      cells += open.size();
+      const std::size_t open = openFrames(sequence).size();
+      if (open > 0) sequences.push_back(&sequence);
+      cells += open;
     }
     if (sequences.empty()) return;
-    const Truths truths = makeTruths(scene, frames);
+    if (c_.suite.reference.matched) followBounces(scene, sequences);
+    const Truths truths = makeTruths(scene, depthsOf(sequences));
     c_.progress.begin(fmt::format("errors of {}", c_.scenes[scene]->name), cells);
     TaskQueue queue;
     for (const PlannedSequence* sequence : sequences) measureSequence(*sequence, truths, queue);
     queue.wait();
     c_.progress.end();
+  }
+
+  void followBounces(std::size_t scene, const std::vector<const PlannedSequence*>& sequences) {
+    std::vector<const PlannedSequence*> followed;
+    std::vector<Technique> techniques;
+    int last = suiteScene(scene).startFrame();
+    for (const PlannedSequence* sequence : sequences) {
+      if (sequence->external) continue;
+      followed.push_back(sequence);
+      techniques.push_back(sequence->technique);
+      last = std::max(last, sequence->frames.back());
+    }
+    std::vector<std::vector<int>> depths = bounceDepths(
+        techniques, suiteScene(scene).startFrame(), last, [&](int frame) { return snapshot(scene, frame); },
+        c_.suite.image.heightPx);
+    for (std::size_t i = 0; i < followed.size(); ++i) depths_[followed[i]] = std::move(depths[i]);
+  }
+
+  // Of the truth that has as many bounces as the sequence at that frame.
+  std::optional<int> depthOf(const PlannedSequence& sequence, int frame) const {
+    const auto found = depths_.find(&sequence);
+    if (found == depths_.end()) return std::nullopt;
+    return found->second[static_cast<std::size_t>(frame - suiteScene(sequence.scene).startFrame())];
+  }
+
+  // The frames whose truths are wanted, and at which depths besides.
+  DepthsByFrame depthsOf(const std::vector<const PlannedSequence*>& sequences) {
+    DepthsByFrame depths;
+    for (const PlannedSequence* sequence : sequences) {
+      const std::vector<int> open = openFrames(*sequence);
+      for (const int frame : framesToRead(*sequence, open)) depths[frame];
+      for (const int frame : open)
+        if (const std::optional<int> depth = depthOf(*sequence, frame)) depths[frame].insert(*depth);
+    }
+    return depths;
   }
 
   void measureExternal(const PlannedSequence& sequence, const Truths& truths, TaskQueue& queue) {
@@ -160,14 +211,19 @@ class Runner {
                             {},
                             c_.suite.cost.repetitions};
     const std::vector<int> open = openFrames(sequence);
+    const std::vector<int> read = framesToRead(sequence, open);
     for (int frame = suiteScene(sequence.scene).startFrame(); frame <= open.back(); ++frame)
-      request.frames.push_back({frame, std::ranges::binary_search(open, frame), snapshot(sequence.scene, frame)});
+      request.frames.push_back({frame, std::ranges::binary_search(read, frame), snapshot(sequence.scene, frame)});
+    std::optional<RenderedFrame> before;
     const ExternalOutcome outcome =
         runExternal(request, [&](int frame, Image picture, const std::optional<ReportedCost>& cost) {
+          const RenderedFrame shown{std::make_shared<const Image>(std::move(picture)), truths.at(frame)};
+          const std::optional<RenderedFrame> shownBefore = std::exchange(before, shown);
+          if (!std::ranges::binary_search(open, frame)) return;
           CellResult cell = makeCell(c_.suite, sequence, frame);
           cell.reportedCost = cost;
-          queue.run([this, &sequence, cell = std::move(cell), truth = truths.at(frame), picture = std::move(picture)] {
-            finishCell(sequence, cell, *truth, picture);
+          queue.run([this, &sequence, cell = std::move(cell), shown, shownBefore] {
+            finishCell(sequence, cell, {shown, shownBefore, std::nullopt, sequence.technique});
           });
         });
     const std::string what = fmt::format("external {} on {}", technique.name, suiteScene(sequence.scene).name);
@@ -177,19 +233,19 @@ class Runner {
     skipped_.emplace_back(what, *outcome.skipped);
   }
 
-  Truths makeTruths(std::size_t scene, const std::set<int>& frames) {
+  Truths makeTruths(std::size_t scene, const DepthsByFrame& depths) {
     Technique noProbes;
     noProbes.probes = ProbeUse::environmentOnly;
     RasterSequence idRaster(c_.device, noProbes, c_.suite.image.widthPx, c_.suite.image.heightPx,
                             c_.suite.image.samplesPerAxis);
     const TruthMaker maker(c_.store, c_.suite.image, c_.suite.reference,
                            [&](const Snapshot& s) { return idRaster.renderIds(s); });
-    c_.progress.begin(fmt::format("references of {}", c_.scenes[scene]->name), frames.size());
+    c_.progress.begin(fmt::format("references of {}", c_.scenes[scene]->name), depths.size());
     Truths truths;
     std::vector<std::string> warnings;
-    for (const int frame : frames) {
+    for (const auto& [frame, wanted] : depths) {
       throwIfInterrupted();
-      truths[frame] = maker.make(snapshot(scene, frame), suiteScene(scene).exposure, warnings);
+      truths[frame] = maker.make(snapshot(scene, frame), suiteScene(scene).exposure, warnings, wanted);
       for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
       warnings.clear();
       writeExr((c_.directory.imagesFolder() / referenceName(scene, frame)).string(), truths[frame]->mean);
@@ -204,34 +260,36 @@ class Runner {
     const ImageSettings& image = c_.suite.image;
     RasterSequence raster(c_.device, sequence.technique, image.widthPx, image.heightPx, image.samplesPerAxis);
     const std::vector<int> open = openFrames(sequence);
+    const std::vector<int> read = framesToRead(sequence, open);
+    std::optional<RenderedFrame> before;
     for (int frame = suiteScene(sequence.scene).startFrame(); frame <= open.back(); ++frame) {
       throwIfInterrupted();
       const bool measured = std::ranges::binary_search(open, frame);
       const FrameStats stats = raster.renderFrame(*snapshot(sequence.scene, frame), measured);
+      if (!std::ranges::binary_search(read, frame)) continue;
+      const RenderedFrame shown{std::make_shared<const Image>(raster.readImage()), truths.at(frame)};
+      const std::optional<RenderedFrame> shownBefore = std::exchange(before, shown);
       if (!measured) continue;
-      queue.run([this, &sequence, frame, stats, truth = truths.at(frame), rendered = raster.readImage()] {
+      MetricValues integrity;
+      if (frame == sequence.frames.back())
+        integrity = integrity_.measure(raster, sequence.technique, truths.at(frame)->snapshot, image.heightPx);
+      queue.run([this, &sequence, frame, stats, integrity, shown, shownBefore] {
         CellResult cell = makeCell(c_.suite, sequence, frame);
+        cell.integrity = integrity;
         cell.counters = namedCounters(stats);
         cell.faceAgeFrames = stats.faceAgeFrames;
         cell.coatsOfProbes = stats.coats.ofProbes;
-        finishCell(sequence, std::move(cell), *truth, rendered);
+        finishCell(sequence, std::move(cell), {shown, shownBefore, depthOf(sequence, frame), sequence.technique});
       });
     }
   }
 
   // Scores the image; `cell` has what does not come from it.
-  void finishCell(const PlannedSequence& sequence, CellResult cell, const Truth& truth, const Image& image) {
-    MetricsResult scores = truth.metrics.compare(image, truth.mask.empty() ? nullptr : &truth.mask);
-    cell.metrics = scores.whole;
-    cell.maskMetrics = scores.masked;
-    cell.floor = truth.floor;
-    cell.maskFloor = truth.maskFloor;
-    cell.unbiased = {{"mse", computeUnbiasedMse(image, truth.halfA, truth.halfB)}};
-    cell.materials =
-        computeMaterialErrors(*truth.snapshot->scene, truth.materials, truth.mean, image, scores.flipHdrMap);
+  void finishCell(const PlannedSequence& sequence, CellResult cell, const ScoreRequest& request) {
+    const Plane flipHdrMap = scoreCell(request, cell);
     cell.pictures.reference = imagePath(referenceName(sequence.scene, cell.frame));
     if (c_.suite.pictures.everyFrame || cell.frame == sequence.frames.back())
-      writeImages(sequence, cell, image, scores.flipHdrMap);
+      writeImages(sequence, cell, *request.frame.image, flipHdrMap);
     c_.directory.append(cell);
     const std::lock_guard lock(mutex_);
     finished_.emplace(cell.key(), std::move(cell));
@@ -325,8 +383,10 @@ class Runner {
   }
 
   const RunContext& c_;
+  IntegrityMeter integrity_;
   std::mutex mutex_;
-  std::map<std::string, CellResult> finished_;  // by key
+  std::map<std::string, CellResult> finished_;                 // by key
+  std::map<const PlannedSequence*, std::vector<int>> depths_;  // from the sequence's first frame on: BounceDepth
   std::vector<std::pair<std::string, std::string>> skipped_;
 };
 

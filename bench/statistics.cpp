@@ -34,6 +34,15 @@ double median(std::span<const double> values) {
   return medianOfSorted(sorted(values));
 }
 
+double quantile(std::span<const double> values, double p) {
+  assert(!values.empty() && p > 0 && p <= 1);
+  const std::vector<double> ordered = sorted(values);
+  // 0.95 * 20 is a little more than 19 in doubles: a rank within rounding of a whole number is that number.
+  constexpr double kRounding = 1e-9;
+  const double rank = std::ceil(p * static_cast<double>(ordered.size()) - kRounding);
+  return ordered[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
 MedianInterval medianInterval(std::span<const double> values, double confidence) {
   assert(!values.empty());
   const std::vector<double> ordered = sorted(values);

@@ -88,6 +88,10 @@ TruthSettings readReference(TomlReader& suite) {
     truth.spp = static_cast<int>(*spp);
   }
   truth.maxNoise = reader->number("max_noise", 0, 1);
+  if (const toml::node* matched = reader->find("matched")) {
+    if (!matched->is_boolean()) throwInputError("{}: 'matched' wants true or false", placeOf(suite.file(), *matched));
+    truth.matched = matched->as_boolean()->get();
+  }
   reader->finish();
   return truth;
 }
@@ -358,6 +362,7 @@ std::string canonicalText(const Suite& suite) {
                                  suite.image.heightPx, suite.image.samplesPerAxis, suite.reference.depth.value_or(0),
                                  printDiffuse(suite.reference.diffuse), suite.reference.diffuseDepth.value_or(-1),
                                  suite.reference.spp, suite.reference.maxNoise.value_or(-1), suite.cost.repetitions);
+  if (!suite.reference.matched) text += "reference matched off\n";
   // Without what stands at its default: a new axis doesn't change suites that don't name it.
   for (const Axis& axis : axisTable())
     if (const std::string value = axis.print(suite.technique); value != axis.print(Technique()))

@@ -49,6 +49,7 @@ struct TruthSettings {
   std::optional<int> diffuseDepth{};  // diffuse bounces of traced light; none: unlimited
   int spp = 16;                       // samples per primary point to begin with
   std::optional<double> maxNoise;     // relMSE of the noise floor; samples are added until it is met
+  bool matched = true;                // cells are scored against the truth with as many bounces as they have, too
 };
 
 struct PictureSettings {

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/instance_map.h"
+#include "bench/bounce_depth.h"
 #include "bench/interrupt.h"
 #include "bench/mask.h"
 
 namespace pb {
 namespace {
+
+// Above it what MetricsReference keeps of each depth would fill the memory: 200 bytes a pixel at ten exposures.
+constexpr std::size_t kMostPreparedPixels = 256 * 1024;
 
 // relMSE of the noise of a reference's mean.
 double noiseOf(const ReferenceImage& image) { return computeErrorSums(image.mean(), image.half(0)).relmse; }
@@ -30,30 +35,40 @@ int mostSpp(const TruthSettings& settings) {
   return spp;
 }
 
+MetricsResult TruncatedTruth::compare(const Image& test, const Mask* mask) const {
+  return (prepared ? *prepared : MetricsReference(mean, display)).compare(test, mask);
+}
+
 std::shared_ptr<const Truth> TruthMaker::make(std::shared_ptr<const Snapshot> snapshot, double exposure,
-                                              std::vector<std::string>& warnings) const {
+                                              std::vector<std::string>& warnings, const std::set<int>& depths) const {
   const ReferenceScene scene(snapshot);
-  const ReferenceImage image = obtainQuietEnough(snapshot, scene, warnings);
+  const ReferenceImage image = obtainQuietEnough(snapshot, scene, settings_.depth, warnings);
   const Image mean = image.mean();
   const Image halfA = image.half(0);
   const Grid<SampleId> ids = scene.renderIds(snapshot->camera, image_.widthPx, image_.heightPx, image_.samplesPerAxis);
-  Mask mask = makeMask(*snapshot, ids);
+  const Grid<SampleId> rasterIds = rasterIds_(*snapshot);
+  Mask mask = makeMask(*snapshot, ids, rasterIds);
   MetricValues maskFloor;
   if (!mask.empty()) maskFloor = computeFloor(mean, halfA, &mask);
   const MetricsSettings display{.exposure = exposure, .clampForDisplay = true};
   Grid<int> materials = materialMap(*snapshot, ids, image_.samplesPerAxis);
-  return std::make_shared<const Truth>(Truth{std::move(snapshot), halfA, image.half(1), mean, noiseOf(image),
-                                             std::move(materials), std::move(mask), computeFloor(mean, halfA),
-                                             std::move(maskFloor), MetricsReference(mean, display)});
+  auto truth = std::make_shared<Truth>(Truth{snapshot, halfA, image.half(1), mean, noiseOf(image), std::move(materials),
+                                             std::move(mask), computeFloor(mean, halfA), std::move(maskFloor),
+                                             MetricsReference(mean, display)});
+  truth->objects = makeObjectMap(*snapshot, scene, ids, rasterIds);
+  truth->truncated = makeTruncated(*truth, scene, display, depths, warnings);
+  return truth;
 }
 
 ReferenceImage TruthMaker::reference(const std::shared_ptr<const Snapshot>& snapshot,
                                      std::vector<std::string>& warnings) const {
-  return obtainQuietEnough(snapshot, ReferenceScene(snapshot), warnings);
+  return obtainQuietEnough(snapshot, ReferenceScene(snapshot), settings_.depth, warnings);
 }
 
-bool TruthMaker::isStored(const std::shared_ptr<const Snapshot>& snapshot) const {
-  return store_.contains(firstRequest(snapshot));
+bool TruthMaker::isStored(const std::shared_ptr<const Snapshot>& snapshot, std::optional<int> depth) const {
+  ReferenceRequest request = firstRequest(snapshot);
+  request.settings.depth = depth;
+  return store_.contains(request);
 }
 
 ReferenceRequest TruthMaker::firstRequest(const std::shared_ptr<const Snapshot>& snapshot) const {
@@ -64,6 +79,32 @@ ReferenceRequest TruthMaker::firstRequest(const std::shared_ptr<const Snapshot>&
   request.settings.diffuseDepth = settings_.diffuseDepth;
   request.settings.spp = settings_.spp;
   return request;
+}
+
+// Depths rise: as soon as one has all that the converged truth has, those beyond it do.
+std::map<int, TruncatedTruth> TruthMaker::makeTruncated(const Truth& truth, const ReferenceScene& scene,
+                                                        const MetricsSettings& display, const std::set<int>& depths,
+                                                        std::vector<std::string>& warnings) const {
+  std::map<int, TruncatedTruth> truncated;
+  bool converged = false;
+  for (const int depth : depths) {
+    TruncatedTruth& made = truncated[depth];
+    converged = converged || depth >= settings_.depth.value_or(kMaxMatchedDepth + 1);
+    if (!converged) {
+      const ReferenceImage image = obtainQuietEnough(truth.snapshot, scene, depth, warnings);
+      made.mean = image.mean();
+      converged = made.mean == truth.mean;
+      if (!converged) {
+        made.floor = computeFloor(made.mean, image.half(0));
+        if (!truth.mask.empty()) made.maskFloor = computeFloor(made.mean, image.half(0), &truth.mask);
+        made.display = display;
+        if (made.mean.size() <= kMostPreparedPixels) made.prepared.emplace(made.mean, display);
+      }
+    }
+    made.converged = converged;
+    if (converged) made.mean = Image();
+  }
+  return truncated;
 }
 
 ReferenceImage TruthMaker::obtain(const ReferenceRequest& request, const ReferenceScene& scene,
@@ -82,8 +123,10 @@ ReferenceImage TruthMaker::obtain(const ReferenceRequest& request, const Referen
 }
 
 ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapshot>& snapshot,
-                                             const ReferenceScene& scene, std::vector<std::string>& warnings) const {
+                                             const ReferenceScene& scene, std::optional<int> depth,
+                                             std::vector<std::string>& warnings) const {
   ReferenceRequest request = firstRequest(snapshot);
+  request.settings.depth = depth;
   ReferenceImage image = obtain(request, scene, warnings);
   if (!settings_.maxNoise) return image;
   const AdaptiveGoal goal{*settings_.maxNoise, mostSpp(settings_)};
@@ -100,12 +143,34 @@ ReferenceImage TruthMaker::obtainQuietEnough(const std::shared_ptr<const Snapsho
   return image;
 }
 
-Mask TruthMaker::makeMask(const Snapshot& snapshot, const Grid<SampleId>& referenceIds) const {
+Mask TruthMaker::makeMask(const Snapshot& snapshot, const Grid<SampleId>& referenceIds,
+                          const Grid<SampleId>& rasterIds) const {
   const std::vector<unsigned char> instances = specularInstances(snapshot);
   Mask mask(image_.widthPx, image_.heightPx);
-  addPixelsOf(instances, rasterIds_(snapshot), image_.samplesPerAxis, mask);
+  addPixelsOf(instances, rasterIds, image_.samplesPerAxis, mask);
   addPixelsOf(instances, referenceIds, image_.samplesPerAxis, mask);
   return anyInside(mask) ? mask : Mask();
+}
+
+ObjectMap TruthMaker::makeObjectMap(const Snapshot& snapshot, const ReferenceScene& scene,
+                                    const Grid<SampleId>& referenceIds, const Grid<SampleId>& rasterIds) const {
+  const shading::View& camera = snapshot.camera;
+  const int width = image_.widthPx, height = image_.heightPx;
+  ObjectMap map{.inReference = instanceMap(referenceIds, image_.samplesPerAxis),
+                .inRaster = instanceMap(rasterIds, image_.samplesPerAxis),
+                .atCentre = instanceMap(scene.renderIds(camera, width, height, 1), 1),
+                .positions = Grid<glm::vec3>(width, height)};
+  const Plane distances = scene.renderDistances(camera, width, height, {});
+  const auto coordinate = [](int i, int n) {
+    return 2.0f * (static_cast<float>(i) + 0.5f) / static_cast<float>(n) - 1.0f;
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (map.atCentre(x, y) >= 0)
+        map.positions(x, y) =
+            glm::vec3(camera.origin) +
+            distances(x, y) * shading::viewDirection(camera, {coordinate(x, width), coordinate(y, height)});
+  return map;
 }
 
 }  // namespace pb

@@ -2,16 +2,31 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "bench/metrics/metrics.h"
+#include "bench/object_errors.h"
 #include "bench/results.h"
 #include "bench/store.h"
 #include "bench/suite.h"
 
 namespace pb {
+
+// The truth with a limited number of bounces.
+struct TruncatedTruth {
+  bool converged = false;  // nothing is missing: it is Truth::mean, and the rest is empty
+  Image mean{};
+  MetricValues floor{}, maskFloor{};
+  MetricsSettings display{};
+  std::optional<MetricsReference> prepared{};  // of small images, which it is kept for
+
+  MetricsResult compare(const Image& test, const Mask* mask) const;
+};
 
 struct Truth {
   std::shared_ptr<const Snapshot> snapshot;
@@ -21,6 +36,8 @@ struct Truth {
   Mask mask;                      // specular-dominant objects; empty if there are none in sight
   MetricValues floor, maskFloor;  // "mse" and "relmse" of the mean's own noise
   MetricsReference metrics;       // scores images against `mean`
+  ObjectMap objects{};
+  std::map<int, TruncatedTruth> truncated{};  // by depth, of those that were asked for
 };
 
 // Noise floor of the mean of two independent halves, ((A-B)/2)^2, as "mse" and "relmse".
@@ -40,23 +57,29 @@ class TruthMaker {
 
   // Takes the reference from the store or renders it and stores it. With max_noise a picture that is noisier only tells
   // where a new one, of other random numbers, needs how many samples (planSamples()), until one is quiet enough or all
-  // pixels have mostSpp(). `warnings` gets what went wrong with stored references.
+  // pixels have mostSpp(). The truncated ones likewise, for depths that differ from it. `warnings` gets what went wrong
+  // with stored references.
   std::shared_ptr<const Truth> make(std::shared_ptr<const Snapshot> snapshot, double exposure,
-                                    std::vector<std::string>& warnings) const;
+                                    std::vector<std::string>& warnings, const std::set<int>& depths = {}) const;
 
   // The reference of make() with all its batches.
   ReferenceImage reference(const std::shared_ptr<const Snapshot>& snapshot, std::vector<std::string>& warnings) const;
 
-  // Whether the store has its first picture; with max_noise there may be more to render.
-  bool isStored(const std::shared_ptr<const Snapshot>& snapshot) const;
+  // Whether the store has the first picture of that depth; with max_noise there may be more to render.
+  bool isStored(const std::shared_ptr<const Snapshot>& snapshot, std::optional<int> depth) const;
 
  private:
   ReferenceRequest firstRequest(const std::shared_ptr<const Snapshot>& snapshot) const;
   ReferenceImage obtain(const ReferenceRequest& request, const ReferenceScene& scene,
                         std::vector<std::string>& warnings) const;
   ReferenceImage obtainQuietEnough(const std::shared_ptr<const Snapshot>& snapshot, const ReferenceScene& scene,
-                                   std::vector<std::string>& warnings) const;
-  Mask makeMask(const Snapshot& snapshot, const Grid<SampleId>& referenceIds) const;
+                                   std::optional<int> depth, std::vector<std::string>& warnings) const;
+  std::map<int, TruncatedTruth> makeTruncated(const Truth& truth, const ReferenceScene& scene,
+                                              const MetricsSettings& display, const std::set<int>& depths,
+                                              std::vector<std::string>& warnings) const;
+  Mask makeMask(const Snapshot& snapshot, const Grid<SampleId>& referenceIds, const Grid<SampleId>& rasterIds) const;
+  ObjectMap makeObjectMap(const Snapshot& snapshot, const ReferenceScene& scene, const Grid<SampleId>& referenceIds,
+                          const Grid<SampleId>& rasterIds) const;
 
   const ReferenceStore& store_;
   ImageSettings image_;

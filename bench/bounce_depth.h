@@ -1,0 +1,57 @@
+// How many bounces a technique shows: which truncated truth its frames are matched to. Pure; why it is so:
+// docs/results.md, "Bounces".
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "raster/probe_layout.h"
+#include "raster/refresh.h"
+#include "raster/technique.h"
+#include "scenes/snapshot.h"
+
+namespace pb {
+
+// Beyond so many hits a truncated truth is taken for the converged one: mirrors that reflect 90 % have 0.1 % left.
+inline constexpr int kMaxMatchedDepth = 64;
+
+// Follows the captures of a sequence. A map is as deep as the specular hits on the longest path that it shows before
+// the environment: one more than the deepest of the other maps that its capture saw. Where maps are of several depths
+// (orders, faces of several ages), the deepest counts.
+class BounceDepth {
+ public:
+  // heightPx: of the image, which decides when probes of Technique::resolutionScale change their resolution.
+  BounceDepth(const Technique& technique, int heightPx);
+
+  // Goes on to the next frame of the sequence. Returns the number of hits after which the truth that matches this
+  // frame's image shows the environment, at least 1.
+  int advance(const Snapshot& snapshot);
+
+ private:
+  // A surface's hits before its map is seen: 2 of what is looked through, in and out.
+  static int hitsAt(const Snapshot& snapshot, const Probe& probe);
+
+  std::vector<ProbeFace> dueFacesOf(const Snapshot& snapshot);
+  void capture(const std::vector<ProbeFace>& due);
+  void captureProbes(const std::vector<ProbeFace>& faces);
+  int depthSeenFrom(std::size_t probe) const;
+  int mapDepth(std::size_t probe) const;
+
+  Technique technique_;
+  int heightPx_;
+  ProbeLayout layout_;
+  RefreshHistory history_;
+  std::vector<int> resolutions_;  // by probe
+  std::vector<int> hits_;         // by probe: hitsAt()
+  std::vector<bool> shown_;       // by probe: whether lookups see its map
+  ByProbeAndFace<int> depths_;    // of what the maps hold
+};
+
+// advance() of the frames `first` to `last` for each of the techniques: [technique][frame - first]. Techniques that
+// capture alike share the work.
+using SnapshotOfFrame = std::function<std::shared_ptr<const Snapshot>(int)>;
+std::vector<std::vector<int>> bounceDepths(const std::vector<Technique>& techniques, int first, int last,
+                                           const SnapshotOfFrame& snapshotOf, int heightPx);
+
+}  // namespace pb
