@@ -5,9 +5,9 @@
 #include <map>
 #include <regex>
 
-#include "bench/attribution_objects.h"
 #include "bench/attribution_steps.h"
 #include "bench/axes.h"
+#include "bench/bounce_depth.h"
 #include "bench/interrupt.h"
 #include "bench/oracle.h"
 #include "bench/truth.h"
@@ -80,6 +80,11 @@ MetricValues definedValues(const Metrics& metrics) {
   return values;
 }
 
+AttributionStep stepOf(const std::string& step, const RegionErrors& errors) {
+  return {
+      step, {{"mse", errors.mse}, {"relmse", errors.relmse}, {"bias", errors.bias}, {"flip_hdr", errors.flipHdr}}, {}};
+}
+
 // Everything that determines traced maps but the scene and the frame.
 std::string keyOf(const ProbeViews& views, const ReferenceSettings& settings, bool withDistances) {
   std::string key =
@@ -139,7 +144,6 @@ class Attributor {
     std::shared_ptr<const Snapshot> snapshot;
     std::shared_ptr<const Truth> truth;
     std::map<int, Image> truncated;  // by depth
-    Grid<int> instances;             // see instanceMap()
   };
 
   static std::string keyOfCell(const Attribution& attribution) {
@@ -194,13 +198,8 @@ class Attributor {
     const std::size_t scene = job.sequence->scene;
     if (!frame_ || frame_->scene != scene || frame_->frame != job.cell->frame) {
       maps_.clear();
-      frame_ = Frame{scene, job.cell->frame, snapshot(scene, job.cell->frame), nullptr, {}, {}};
+      frame_ = Frame{scene, job.cell->frame, snapshot(scene, job.cell->frame), nullptr, {}};
       frame_->truth = makeTruth(*frame_, c_.suite.reference);
-      const ImageSettings& image = c_.suite.image;
-      const ReferenceScene reference(frame_->snapshot);
-      const Grid<SampleId> ids =
-          reference.renderIds(frame_->snapshot->camera, image.widthPx, image.heightPx, image.samplesPerAxis);
-      frame_->instances = instanceMap(ids, image.samplesPerAxis);
     }
     return *frame_;
   }
@@ -214,17 +213,22 @@ class Attributor {
     return settings;
   }
 
-  // Empty: that of the truth itself.
-  std::optional<int> truncation(const Job& job) const {
-    const std::optional<int> ofTruth = c_.suite.reference.depth;
-    const std::optional<MatchedErrors>& matched = job.cell->matched;
-    const int depth = matched ? matched->depth : 1 + job.sequence->technique.bounces * framesRendered(job);
-    if ((matched && matched->converged) || (ofTruth && *ofTruth <= depth)) return ofTruth;
-    return depth;
+  // The bounces of the technique at that frame: the number of hits after which its truth shows the environment.
+  int depthOf(const Job& job) const {
+    if (job.cell->matched) return job.cell->matched->depth;
+    const std::size_t scene = job.sequence->scene;
+    return bounceDepths(
+               {job.sequence->technique}, c_.suite.scenes[scene].startFrame(), job.cell->frame,
+               [&](int frame) { return snapshot(scene, frame); }, c_.suite.image.heightPx)
+        .front()
+        .back();
   }
 
-  int framesRendered(const Job& job) const {
-    return job.cell->frame - c_.suite.scenes[job.sequence->scene].startFrame() + 1;
+  // The same as a setting of the reference; that of the truth itself where it has no more bounces.
+  std::optional<int> truncation(int depth) const {
+    const std::optional<int> ofTruth = c_.suite.reference.depth;
+    if (depth >= kMaxMatchedDepth || (ofTruth && *ofTruth <= depth)) return ofTruth;
+    return depth;
   }
 
   const Image& truncatedImage(Frame& frame, std::optional<int> depth) const {
@@ -238,17 +242,17 @@ class Attributor {
   void attributeCell(const Job& job) {
     if (finished_.contains(job.cell->key())) return;
     Frame& frame = frameOf(job);
-    const std::optional<int> depth = truncation(job);
+    const int depth = depthOf(job);
+    const std::optional<int> truncated = truncation(depth);
     Attribution attribution{
-        job.cell->scene, job.cell->camera, job.cell->frame, job.cell->technique, depth.value_or(0), {}, {}};
+        job.cell->scene, job.cell->camera, job.cell->frame, job.cell->technique, truncated.value_or(0), {}, {}};
     Scores scores{frame, attribution};
     if (c_.suite.reference.diffuse == DiffuseTransport::traced)
       scores.add("local diffuse", truncatedImage(frame, c_.suite.reference.depth));
-    scores.add("truncated bounces", truncatedImage(frame, depth));
-    const int renders = framesRendered(job);
-    for (const RasterStep& step : rasterSteps(job.sequence->technique, renders, c_.suite.attribution->resolution)) {
+    scores.add("truncated bounces", truncatedImage(frame, truncated));
+    for (const RasterStep& step : rasterSteps(job.sequence->technique, c_.suite.attribution->resolution)) {
       throwIfInterrupted();
-      scores.add(step.step, step.isTraced ? renderTraced(step, frame, depth) : renderFresh(step, frame));
+      scores.add(step.step, step.isTraced ? renderTraced(step, frame, truncated) : renderFresh(step, frame, depth));
     }
     scores.add("stale", imageOf(job));
     c_.directory.append(attribution);
@@ -259,15 +263,23 @@ class Attributor {
     const ProbeViews views = probeViews(step.technique, frame.snapshot, c_.suite.image.heightPx);
     ReferenceSettings settings;
     settings.spp = c_.suite.attribution->spp.value_or(c_.suite.reference.spp);
-    if (depth) settings.depth = std::max(*depth - 1, 1);
+    settings.depth = depth;
     const OracleMaps& maps = maps_.obtain(views, settings, needsDistances(step.technique));
     return renderWithMaps(c_.device, step.technique, *frame.snapshot, c_.suite.image, maps);
   }
 
-  Image renderFresh(const RasterStep& step, const Frame& frame) const {
+  // In a world that stands still, as often as it takes for the maps to be as deep as the technique's.
+  Image renderFresh(const RasterStep& step, const Frame& frame, int depth) const {
     const ImageSettings& image = c_.suite.image;
     RasterSequence sequence(c_.device, step.technique, image.widthPx, image.heightPx, image.samplesPerAxis);
-    for (int i = 0; i < step.renders; ++i) sequence.renderFrame(*frame.snapshot);
+    BounceDepth followed(step.technique, image.heightPx);
+    const int enough = std::min(depth, kMaxMatchedDepth);
+    for (int before = 0, now = 0;; before = now) {
+      throwIfInterrupted();
+      now = followed.advance(*frame.snapshot);
+      sequence.renderFrame(*frame.snapshot);
+      if (now >= enough || now == before) break;  // the same every time: no other probe, or none in memory
+    }
     return sequence.readImage();
   }
 
@@ -296,7 +308,12 @@ class Attributor {
       const MetricsResult result = truth.metrics.compare(image, truth.mask.empty() ? nullptr : &truth.mask);
       attribution.steps.push_back(
           {step, definedValues(result.whole), result.masked ? definedValues(*result.masked) : MetricValues()});
-      addObjects(attribution.objects, step, *frame.snapshot, frame.instances, {truth.mean, image, result.flipHdrMap});
+      const std::vector<ObjectError> objects =
+          computeObjectErrors(*frame.snapshot, *frame.snapshot, truth.objects, truth.mean, image, result.flipHdrMap);
+      if (attribution.objects.empty())
+        for (const ObjectError& object : objects)
+          attribution.objects.push_back({object.object, object.material, object.pixels, {}});
+      for (std::size_t i = 0; i < objects.size(); ++i) attribution.objects[i].steps.push_back(stepOf(step, objects[i]));
     }
   };
 

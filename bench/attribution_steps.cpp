@@ -7,9 +7,6 @@
 namespace pb {
 namespace {
 
-// After as many bounces the reference, too, takes no care to follow all paths.
-constexpr int kMostIterations = 16;
-
 // Maps are stored and filtered as well as the raster can.
 Technique withBestMaps(Technique technique) {
   const Technique best;
@@ -37,26 +34,18 @@ Technique withFreshCaptures(Technique technique) {
   return technique;
 }
 
-// Frames that bring fresh maps as many bounces as the technique's have had the time for.
-int freshRenders(const Technique& technique, int framesRendered) {
-  if (technique.feedback == Feedback::sky) return 1;
-  const int enough = (kMostIterations + technique.bounces - 1) / technique.bounces;
-  return std::clamp(framesRendered, 1, enough);
-}
-
 }  // namespace
 
-std::vector<RasterStep> rasterSteps(const Technique& technique, int framesRendered, int tracedResolution) {
+std::vector<RasterStep> rasterSteps(const Technique& technique, int tracedResolution) {
   const Technique traced = withGivenMaps(withBestMaps(technique));
   Technique perfect = traced;
   perfect.resolution = std::max(tracedResolution, technique.resolution);
   perfect.resolutionScale = ResolutionScale::fixed;
   const Technique fresh = withFreshCaptures(technique);
-  const int renders = freshRenders(technique, framesRendered);
   return {{.step = "lookup", .technique = perfect, .isTraced = true},
           {.step = "resolution", .technique = traced, .isTraced = true},
-          {.step = "capture", .technique = withBestMaps(fresh), .renders = renders},
-          {.step = "filtered/format", .technique = withMapsAsStored(fresh, technique), .renders = renders}};
+          {.step = "capture", .technique = withBestMaps(fresh)},
+          {.step = "filtered/format", .technique = withMapsAsStored(fresh, technique)}};
 }
 
 }  // namespace pb

@@ -94,8 +94,9 @@ bool isMisplaced(const Image& face, const CubeFaces& expected, int own) {
     for (int way = 0; way < 8; ++way)
       if (other != own || way != 0)
         elsewhere = std::min(elsewhere, difference(face, expected[static_cast<std::size_t>(other)], way));
-  // Less than half of the squared difference, and better by more than the noise of either: 1e-3 of white.
-  return elsewhere < 0.5 * here && here - elsewhere > 1e-6;
+  // What belongs there leaves of the squared difference next to nothing; what other faces of a room have in common with
+  // it, a quarter at most. Better by more than the noise of either, 1e-3 of white.
+  return elsewhere < 0.2 * here && here - elsewhere > 1e-6;
 }
 
 std::string keyOf(const ProbeViews& views) {
@@ -110,7 +111,7 @@ CubeFaces traceExpected(const ReferenceScene& scene, const ProbeView& probe) {
   ReferenceSettings settings;
   settings.samplesPerAxis = 2;
   settings.spp = 2;
-  settings.depth = 1;  // what mirrors show in the maps is not what tells a face from another
+  settings.depth = 3;  // about what mirrors show in the maps
   settings.hiddenFromPrimary = probe.hidden;
   CubeFaces faces;
   for (int face = 0; face < 6; ++face)

@@ -1,5 +1,8 @@
 #include "bench/oracle.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "bench/interrupt.h"
 #include "raster/lookup.h"
 
@@ -14,12 +17,27 @@ Technique withGivenMaps(Technique technique) {
   return technique;
 }
 
+namespace {
+
+int hitsBeforeMap(const Snapshot& snapshot, const std::vector<int>& owners) {
+  const bool isCrossed = std::ranges::any_of(owners, [&](int owner) {
+    const glm::vec4& kind = snapshot.materialOf(snapshot.instances[static_cast<std::size_t>(owner)]).constants.kind;
+    return kind.x == shading::kSurfaceGlass && kind.z > 0.0f;  // with a thickness
+  });
+  return isCrossed ? 2 : 1;
+}
+
+}  // namespace
+
 OracleMaps traceMaps(const ProbeViews& views, ReferenceSettings settings, bool withDistances) {
   settings.samplesPerAxis = 1;
   const ReferenceScene scene(views.snapshot);
   OracleMaps maps;
-  for (const ProbeView& view : views.probes) {
+  const std::optional<int> depth = settings.depth;
+  for (std::size_t i = 0; i < views.probes.size(); ++i) {
+    const ProbeView& view = views.probes[i];
     const Probe probe{.position = view.position, .owners = view.hidden, .zNear = view.zNear};
+    if (depth) settings.depth = std::max(*depth - hitsBeforeMap(*views.snapshot, views.snapshot->probes[i].owners), 1);
     maps.faces.push_back(traceProbe(scene, probe, view.resolutionPx, settings, &interruptRequested()));
     maps.distances.emplace_back();
     if (withDistances) maps.distances.back() = traceProbeDistances(scene, probe, view.resolutionPx);

@@ -24,8 +24,8 @@ bool takesOracleMaps(const Technique& technique);
 // The technique with maps that are given, and everything else as it is.
 Technique withGivenMaps(Technique technique);
 
-// One ray a texel, through its centre, as captures have. `settings.depth` is that of the maps' own rays: a picture that
-// shows them in mirrors has one hit more.
+// One ray a texel, through its centre, as captures have. `settings.depth` is that of pictures that show the maps: the
+// maps' own rays have one hit less, two less where the owner is of solid glass, in and out, but at least one.
 OracleMaps traceMaps(const ProbeViews& views, ReferenceSettings settings, bool withDistances);
 
 // The final image of a technique whose maps are given.

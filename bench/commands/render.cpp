@@ -10,7 +10,9 @@
 #include "bench/axes.h"
 #include "bench/commands/commands.h"
 #include "bench/interrupt.h"
+#include "bench/oracle.h"
 #include "bench/suite.h"
+#include "raster/lookup.h"
 #include "reference/renderer.h"
 #include "scenes/error.h"
 #include "scenes/image_io.h"
@@ -107,6 +109,26 @@ Rendered renderRaster(const RenderOptions& options, const RenderJob& job, const 
   return rendered;
 }
 
+// The raster's final image with traced maps: one frame, as nothing of them depends on those before.
+Rendered renderOracle(const RenderOptions& options, const RenderJob& job, const GlobalOptions& globals) {
+  if (!takesOracleMaps(job.technique))
+    throwInputError("--with oracle wants a technique with cube maps, which lookup '{}' has none of",
+                    printSpec(job.technique.lookup));
+  if (job.reference.depth && *job.reference.depth < 2)
+    throwInputError("--with oracle wants --depth of at least 2, one hit for the picture and one for the maps");
+  const auto snapshot = snapshotOf(options, job, options.frame);
+  const Technique technique = withGivenMaps(job.technique);
+  const OracleMaps maps =
+      traceMaps(probeViews(technique, snapshot, job.image.heightPx), job.reference, needsDistances(technique));
+  RasterDevice device(globals.backend());
+  Rendered rendered{renderWithMaps(device, technique, *snapshot, job.image, maps), {}};
+  if (!job.idsPath.empty())
+    rendered.ids =
+        RasterSequence(device, job.technique, job.image.widthPx, job.image.heightPx, job.image.samplesPerAxis)
+            .renderIds(*snapshot);
+  return rendered;
+}
+
 Rendered renderReference(const RenderOptions& options, const RenderJob& job) {
   const ImageSettings& image = job.image;
   const auto snapshot = snapshotOf(options, job, options.frame);
@@ -136,11 +158,16 @@ void writeIds(const std::string& path, const Grid<SampleId>& ids) {
   writeExr(path, planes);
 }
 
+Rendered renderWith(const RenderOptions& options, const RenderJob& job, const GlobalOptions& globals) {
+  if (options.renderer == "raster") return renderRaster(options, job, globals);
+  if (options.renderer == "oracle") return renderOracle(options, job, globals);
+  return renderReference(options, job);
+}
+
 int render(const RenderOptions& options, const GlobalOptions& globals) {
   const RenderJob job = parseJob(options);
   for (const std::string& warning : job.scene->warnings) fmt::print(stderr, "warning: {}\n", warning);
-  Rendered rendered =
-      options.renderer == "raster" ? renderRaster(options, job, globals) : renderReference(options, job);
+  Rendered rendered = renderWith(options, job, globals);
   scaleByStops(rendered.image, options.exposure);
   writeImage(options.output, rendered.image);
   if (!job.idsPath.empty()) writeIds(job.idsPath, rendered.ids);
@@ -154,9 +181,9 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& actio
   const auto options = std::make_shared<RenderOptions>();
   command->add_option("SCENE", options->scene, "a .gltf, .glb or .obj file, or builtin:NAME, with ?key=value options")
       ->required();
-  command->add_option("--with", options->renderer, "raster or reference")
+  command->add_option("--with", options->renderer, "raster, reference, or oracle: the raster with traced maps")
       ->required()
-      ->check(CLI::IsMember({"raster", "reference"}));
+      ->check(CLI::IsMember({"raster", "reference", "oracle"}));
   command->add_option("-o", options->output, "the picture: .exr or .png")->required();
   command->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
   command->add_option("--samples", options->samples, "primary samples a pixel: 1, 4, 9, ..")->capture_default_str();
