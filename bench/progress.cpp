@@ -61,8 +61,9 @@ void Progress::step() {
 
 void Progress::end() {
   const std::lock_guard lock(mutex_);
+  phases_.push_back({phase_, done_, secondsSince(start_)});
   fmt::print(stderr, "{}{}: {} of {} in {}\n", terminal_ ? kClearLine : "", phase_, done_, total_,
-             printDuration(secondsSince(start_)));
+             printDuration(phases_.back().seconds));
   phase_.clear();
 }
 

@@ -150,7 +150,8 @@ std::string stepText(const Step& step) {
   if (step.verdict == Verdict::belowFloor)
     text += "stays below the floor";
   else if (step.verdict == Verdict::equal)
-    text += fmt::format("changes nothing within {}", formatSignificant(step.plusMinus, 1));
+    text += step.plusMinus > 0 ? fmt::format("changes nothing within {}", formatSignificant(step.plusMinus, 1))
+                               : std::string("changes nothing");
   else
     text += fmt::format("{} {}{}", step.gain > 0 ? "buys" : "loses", formatSignificant(std::abs(step.gain)), interval);
   if (!step.costFactor) return text;

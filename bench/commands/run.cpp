@@ -16,6 +16,8 @@
 #include "bench/report/page.h"
 #include "bench/runner.h"
 #include "bench/shell_word.h"
+#include "bench/version.h"
+#include "bench/work.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -59,6 +61,12 @@ std::string commandOf(const RunOptions& options) {
   return text;
 }
 
+// Rates of one machine say nothing about another.
+std::string machineOf(const GlobalOptions& globals) {
+  return fmt::format("{}, {} threads, {}", cpuName(), globals.threadCount(),
+                     globals.backend() == GlBackend::egl ? "egl" : "osmesa");
+}
+
 // The suite's numbers mean nothing if the two renderers disagree where nothing is approximated.
 std::string passControl(RasterDevice& device, Progress& progress) {
   progress.begin("control", 1);
@@ -89,18 +97,21 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   Suite suite = effectiveSuite(options);
   const Scenes scenes = loadScenes(suite);
   const Plan plan = makePlan(suite, filterOf(options));
+  const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
+  const PlanWork work = computeWork(suite, scenes, plan, store);
+  Rates rates(store.folder(), machineOf(globals));
+  const std::string planned = printPlan(suite, plan) + printWork(work, rates);
   if (options.dryRun) {
-    fmt::print("{}", printPlan(suite, plan));
+    fmt::print("{}", planned);
     return 0;
   }
-  fmt::print(stderr, "{}", printPlan(suite, plan));
+  fmt::print(stderr, "{}", planned);
   printWarnings(scenes);
   requireExternals(suite, scenes, plan);
 
   RasterDevice device(globals.backend());
   checkPlan(suite, scenes, plan, device);
   Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
-  const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
   Progress progress;
   provenance.controlOutcome = passControl(device, progress);
   // Last, as it removes an earlier run.
@@ -108,6 +119,10 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
                          {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
   provenance.settings.emplace_back(kCommandSetting, commandOf(options));
   const RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
+  if (!options.resume) {
+    rates.record(progress.phases(), work);
+    rates.save();
+  }
   return finishRun(outcome, std::move(provenance), suite, directory);
 }
 

@@ -1,0 +1,140 @@
+#include "bench/work.h"
+
+#include <algorithm>
+#include <set>
+
+#include "bench/bounce_depth.h"
+#include "bench/cost.h"
+#include "bench/truth.h"
+#include "raster/probe_layout.h"
+
+namespace pb {
+namespace {
+
+constexpr double kMillion = 1e6;
+constexpr double kRender = 0.05;  // millions of pixels that take as long as the draws of a render
+constexpr double kScoring = 10;   // pixels of a picture that take as long as scoring one of it
+// Frames that stand for a long sequence: refresh policies repeat much earlier.
+constexpr int kMostModelFrames = 60;
+
+double megapixels(const ImageSettings& image, int samplesPerAxis) {
+  return static_cast<double>(image.widthPx) * image.heightPx * samplesPerAxis * samplesPerAxis / kMillion;
+}
+
+class WorkCounter {
+ public:
+  WorkCounter(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store)
+      : suite_(suite), scenes_(scenes), plan_(plan), maker_(store, suite.image, suite.reference, {}) {}
+
+  PlanWork count() {
+    work_.mayRefine = suite_.reference.maxNoise.has_value();
+    work_.units[{"control", ""}] = 1;
+    for (std::size_t scene = 0; scene < scenes_.size(); ++scene) countScene(scene);
+    return work_;
+  }
+
+ private:
+  std::shared_ptr<const Snapshot> snapshot(std::size_t scene, int frame) {
+    std::shared_ptr<const Snapshot>& kept = snapshots_[frame];
+    if (!kept)
+      kept = makeSnapshot(scenes_[scene], std::max(frame, 0), suite_.scenes[scene].camera, suite_.image.aspect());
+    return kept;
+  }
+
+  void countScene(std::size_t scene) {
+    snapshots_.clear();
+    std::vector<const PlannedSequence*> sequences;
+    for (const PlannedSequence& sequence : plan_.sequences)
+      if (sequence.scene == scene) sequences.push_back(&sequence);
+    if (sequences.empty()) return;
+    countReferences(scene, sequences);
+    for (const PlannedSequence* sequence : sequences)
+      if (!sequence->external) countSequence(*sequence);
+    pictures_ += static_cast<double>(sequences.size());
+    work_.units[{"intervals", ""}] = pictures_ * megapixels(suite_.image, 1) * kScoring;
+  }
+
+  void countReferences(std::size_t scene, const std::vector<const PlannedSequence*>& sequences) {
+    std::set<std::pair<int, std::optional<int>>> pictures;  // frame and depth
+    for (const PlannedSequence* sequence : sequences)
+      for (const int frame : sequence->frames) pictures.emplace(frame, suite_.reference.depth);
+    if (suite_.reference.matched) addMatchedDepths(scene, sequences, pictures);
+    for (const auto& [frame, depth] : pictures) {
+      ++work_.references;
+      if (maker_.isStored(snapshot(scene, frame), depth))
+        ++work_.stored;
+      else
+        work_.units[{"references", scenes_[scene]->name}] +=
+            megapixels(suite_.image, suite_.image.samplesPerAxis) * suite_.reference.spp;
+    }
+  }
+
+  void addMatchedDepths(std::size_t scene, const std::vector<const PlannedSequence*>& sequences,
+                        std::set<std::pair<int, std::optional<int>>>& pictures) {
+    const int first = suite_.scenes[scene].startFrame();
+    std::vector<Technique> techniques;
+    std::vector<const PlannedSequence*> own;
+    int last = first;
+    for (const PlannedSequence* sequence : sequences) {
+      if (sequence->external) continue;
+      own.push_back(sequence);
+      techniques.push_back(sequence->technique);
+      last = std::max(last, sequence->frames.back());
+    }
+    const auto depths = bounceDepths(
+        techniques, first, last, [&](int frame) { return snapshot(scene, frame); }, suite_.image.heightPx);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      for (const int frame : own[i]->frames)
+        pictures.emplace(frame, depths[i][static_cast<std::size_t>(frame - first)]);
+  }
+
+  void countSequence(const PlannedSequence& sequence) {
+    const Technique& technique = sequence.technique;
+    const int first = suite_.scenes[sequence.scene].startFrame();
+    const int probes = static_cast<int>(ProbeLayout(technique).apply(*snapshot(sequence.scene, first)).probes.size());
+    const int block = blockFrames(technique, probes, static_cast<int>(sequence.frames.size()));
+    std::vector<std::shared_ptr<const Snapshot>> snapshots;
+    for (int i = 0; i <= std::min(block, kMostModelFrames); ++i)
+      snapshots.push_back(snapshot(sequence.scene, first + i));
+    const double faces = modelRenders(technique, snapshots).perFrame - 1;
+    const double frames = sequence.frames.back() - first + 1;
+    const double face = static_cast<double>(technique.resolution) * technique.resolution / kMillion + kRender;
+    const double samples = megapixels(suite_.image, suite_.image.samplesPerAxis);
+    work_.frames += static_cast<std::size_t>(frames);
+    work_.captures += frames * faces;
+    work_.units[{"errors", scenes_[sequence.scene]->name}] +=
+        frames * (samples + kRender + faces * face) +
+        static_cast<double>(sequence.frames.size()) * kScoring * megapixels(suite_.image, 1);
+    countCost(block, faces * face);
+  }
+
+  // Blocks of frames, a warm-up and instrumented frames, and eight plain frames a repetition.
+  void countCost(int block, double capturesAFrame) {
+    const int repetitions = suite_.cost.repetitions;
+    if (repetitions == 0) return;
+    const double plain = megapixels(suite_.image, 1) + kRender;
+    work_.blocks += static_cast<std::size_t>(repetitions);
+    work_.units[{"cost", ""}] += (repetitions + 2) * block * (plain + capturesAFrame) + repetitions * 8 * plain;
+  }
+
+  const Suite& suite_;
+  const Scenes& scenes_;
+  const Plan& plan_;
+  TruthMaker maker_;
+  PlanWork work_;
+  double pictures_ = 0;                                       // that get intervals
+  std::map<int, std::shared_ptr<const Snapshot>> snapshots_;  // of one scene
+};
+
+}  // namespace
+
+PlanWork computeWork(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store) {
+  return WorkCounter(suite, scenes, plan, store).count();
+}
+
+WorkKind kindOfPhase(const std::string& phase) {
+  const std::size_t of = phase.find(" of ");
+  return of == std::string::npos ? WorkKind(phase, "") : WorkKind(phase.substr(0, of), phase.substr(of + 4));
+}
+
+}  // namespace pb

@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/work.h"
+#include "scenes/files.h"
+#include "tests/temporary_folder.h"
+
+namespace pb {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Phases, NameTheirKindAndScene) {
+  EXPECT_EQ(kindOfPhase("errors of pool of glass"), WorkKind("errors", "pool of glass"));
+  EXPECT_EQ(kindOfPhase("cost"), WorkKind("cost", ""));
+}
+
+TEST(Rates, AreThoseOfTheScene_OrTheMeanOfAll) {
+  const TemporaryFolder folder;
+  Rates rates(folder.path(), "here");
+  EXPECT_EQ(rates.secondsPerUnit({"errors", "a"}), std::nullopt);
+  rates.record({"errors", "a"}, 2, 4);
+  rates.record({"errors", "b"}, 2, 8);
+  EXPECT_EQ(rates.secondsPerUnit({"errors", "a"}), 2.0);
+  EXPECT_EQ(rates.secondsPerUnit({"errors", "c"}), 3.0);
+  EXPECT_EQ(rates.secondsPerUnit({"cost", ""}), std::nullopt);
+}
+
+TEST(Rates, AreKeptByMachine) {
+  const TemporaryFolder folder;
+  Rates rates(folder.path(), "here");
+  rates.record({"cost", ""}, 1, 2);
+  rates.save();
+  EXPECT_EQ(Rates(folder.path(), "here").secondsPerUnit({"cost", ""}), 2.0);
+  EXPECT_EQ(Rates(folder.path(), "there").secondsPerUnit({"cost", ""}), std::nullopt);
+}
+
+TEST(Rates, FromADamagedFile_AreNone) {
+  const TemporaryFolder folder;
+  writeFileAtomically((folder.path() / "rates.json").string(), R"({"here": [{"kind": 3}]})");
+  EXPECT_EQ(Rates(folder.path(), "here").secondsPerUnit({"cost", ""}), std::nullopt);
+}
+
+TEST(Rates, OfPhases_CountWhatTheyWereToDo) {
+  const TemporaryFolder folder;
+  Rates rates(folder.path(), "here");
+  PlanWork work;
+  work.units[{"errors", "a"}] = 4;
+  rates.record({{"errors of a", 3, 8.0}, {"references of a", 3, 5.0}}, work);
+  EXPECT_EQ(rates.secondsPerUnit({"errors", "a"}), 2.0);
+  EXPECT_EQ(rates.secondsPerUnit({"references", "a"}), std::nullopt);  // there were none to trace
+}
+
+TEST(PrintedWork, SaysHowLongItTakesAndWhatIsNotKnown) {
+  const TemporaryFolder folder;
+  Rates rates(folder.path(), "here");
+  PlanWork work;
+  work.references = 8;
+  work.stored = 6;
+  work.units[{"errors", "a"}] = 30;
+  work.units[{"cost", ""}] = 1;
+  EXPECT_THAT(printWork(work, rates), HasSubstr("8 references, 6 of them stored"));
+  EXPECT_THAT(printWork(work, rates), HasSubstr("no rates measured yet"));
+  rates.record({"errors", "a"}, 1, 2);
+  EXPECT_THAT(printWork(work, rates),
+              HasSubstr("should take about 1:00 (errors 1:00), by the rates of earlier runs; no rates measured yet for "
+                        "cost"));
+}
+
+}  // namespace
+}  // namespace pb
