@@ -75,7 +75,7 @@ export function cellDetails(cell, viewer, pictures) {
     element("h3", {}, `${cell.sequence.label}, frame ${cell.frame}`),
     element("p", {class: "note"}, element("a", {href: linkTo(cell), class: "permalink"}, "Link to this cell"), " · ", element("code", {}, cell.shortKey)),
     viewer.element, crops,
-    element("div", {class: "columns"}, errorTable(cell), pairsTable("Cost and work", costPairs(cell))),
+    element("div", {class: cell.matched || cell.intervals ? "numbers" : "numbers columns"}, errorTable(cell), pairsTable("Cost and work", costPairs(cell))),
     cell.objects?.length ? objectTable(cell) : null,
     cell.materials?.length ? materialTable(cell) : null,
   ];

@@ -70,7 +70,7 @@ export function scaleFor(values) {
   const known = values.filter((v) => Number.isFinite(v));
   const low = Math.min(...known), high = Math.max(...known);
   return low > 0 && high / low > LOG_FROM ? {type: "log", domain: [low / LOG_MARGIN, high * LOG_MARGIN]}
-    : {type: "linear", zero: false, nice: true, domain: [low > ZERO_BELOW * high ? low : Math.min(low, 0), high]};
+    : {type: "linear", zero: false, nice: true, domain: [low > ZERO_BELOW * high && low < high ? low : Math.min(low, 0), high]};
 }
 
 export const numberAxis = (scale, orient, title) => ({scale, orient, title, tickCount: 5, format: "~g"});

@@ -155,8 +155,8 @@ export function timeCharts(context) {
   const onClick = (datum) => context.openIndex(datum.index);
   const error = new Chart({title: "Error over time", height: 270, onClick,
     makeSpec: (width, colours) => timeSpec(context.view(), context.question(), colours, (cell) => errorOf(cell, context.question()))});
-  const flicker = new Chart({title: "Flicker over time", height: 270, onClick, makeSpec: (width, colours) =>
-    timeSpec(context.view(), context.question(), colours, (cell) => cell.flicker?.[context.question().region] ?? NaN, "flicker: change that only one renderer shows")});
+  const flicker = new Chart({title: "Flicker over time: change that only one renderer shows", height: 270, onClick, makeSpec: (width, colours) =>
+    timeSpec(context.view(), context.question(), colours, (cell) => cell.flicker?.[context.question().region] ?? NaN, "flicker")});
   const stale = new Chart({title: "Error against staleness", height: 270, onClick, makeSpec: (width, colours) => stalenessSpec(context.view(), context.question(), colours)});
   return [error, flicker, stale];
 }

@@ -67,6 +67,8 @@ class Page {
       view.hasMask && select("Region", "region", [{value: "mask", title: "mask: reflective and refractive objects"}, {value: "whole", title: "whole image"}]),
       hasMatched && select("Truth", "truth", [{value: "converged", title: "converged"}, {value: "matched", title: "own number of bounces"}]),
       known.length > 1 && select("Cost", "cost", titled(known)));
+    const isSticky = getComputedStyle(this.controls).position === "sticky";
+    document.documentElement.style.scrollPaddingTop = isSticky ? `${this.controls.offsetHeight + 12}px` : "";
   }
 
   setting(name, value) {

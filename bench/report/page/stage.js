@@ -41,7 +41,7 @@ export class Lens {
 export class Stage {
   constructor(lens) {
     this.lens = lens;
-    this.canvas = element("canvas", {role: "img"});
+    this.canvas = element("canvas", {role: "img", "aria-label": "picture"});
     this.label = element("span", {class: "label"});
     this.element = element("div", {class: "stage"}, this.canvas, this.label);
     this.canvas.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
