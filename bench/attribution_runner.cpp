@@ -18,6 +18,9 @@
 namespace pb {
 namespace {
 
+// Texels are seen magnified, their noise too, where a map has few of them.
+constexpr int kTexelSpp = 16;
+
 struct Job {
   const PlannedSequence* sequence;
   const CellResult* cell;
@@ -167,7 +170,8 @@ class Attributor {
         if (!sequence.external && takesOracleMaps(sequence.technique))
           jobs.push_back({&sequence, found->second});
         else
-          c_.progress.message("no attribution, as it has no cube maps: " + found->first);
+          c_.progress.message("no attribution, as it has no cube maps: " +
+                              shortKey(found->first, describe(Technique())));
       }
     return jobs;
   }
@@ -262,7 +266,7 @@ class Attributor {
   Image renderTraced(const RasterStep& step, const Frame& frame, std::optional<int> depth) {
     const ProbeViews views = probeViews(step.technique, frame.snapshot, c_.suite.image.heightPx);
     ReferenceSettings settings;
-    settings.spp = c_.suite.attribution->spp.value_or(c_.suite.reference.spp);
+    settings.spp = c_.suite.attribution->spp.value_or(std::max(kTexelSpp, c_.suite.reference.spp));
     settings.depth = depth;
     const OracleMaps& maps = maps_.obtain(views, settings, needsDistances(step.technique));
     return renderWithMaps(c_.device, step.technique, *frame.snapshot, c_.suite.image, maps);

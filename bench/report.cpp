@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "bench/attribution_table.h"
 #include "bench/recommend.h"
 #include "bench/sections.h"
 #include "bench/tables.h"
@@ -419,6 +420,7 @@ std::string makeReport(const Results& results, const AxisValues& defaults) {
   const std::vector<std::string> shared = sharedAxes(sections);
   text += fixedText(shared, defaults);
   for (const Section& section : sections) text += sectionText(section, shared);
+  text += attributionTables(results.attribution, defaults);
   return text + circumstances(results.provenance);
 }
 

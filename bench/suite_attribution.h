@@ -14,7 +14,7 @@ struct AttributionSettings {
   std::optional<std::string> cells;
   bool everyFrame = false;  // otherwise the last measured frame of a sequence
   int resolution = 1024;    // of the traced maps that stand for perfect ones, at least the technique's own
-  std::optional<int> spp;   // samples per texel of traced maps; none: as the reference's pixels begin with
+  std::optional<int> spp;   // samples per texel of traced maps; none: as the reference begins with, at least 16
 };
 
 // nullopt without the table. Throws input Errors.
