@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <regex>
 
+#include "bench/attribution_cells.h"
 #include "bench/attribution_steps.h"
 #include "bench/axes.h"
 #include "bench/bounce_depth.h"
@@ -24,56 +24,6 @@ constexpr int kTexelSpp = 16;
 struct Job {
   const PlannedSequence* sequence;
   const CellResult* cell;
-};
-
-std::size_t differingAxes(const Technique& a, const Technique& b) {
-  const AxisValues valuesA = describe(a), valuesB = describe(b);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < valuesA.size(); ++i) count += valuesA[i] != valuesB[i] ? 1 : 0;
-  return count;
-}
-
-// Of each scene the sequence that is nearest to the suite's base technique, the first of several. Shards of a run agree
-// on it: it is chosen from the whole suite.
-std::vector<PlannedSequence> baseSequences(const Suite& suite) {
-  std::vector<PlannedSequence> nearest;
-  std::size_t fewest = 0;
-  for (const PlannedSequence& sequence : makePlan(suite).sequences) {
-    if (sequence.external) continue;
-    const std::size_t axes = differingAxes(sequence.technique, suite.technique);
-    const bool isNewScene = nearest.empty() || nearest.back().scene != sequence.scene;
-    if (isNewScene)
-      nearest.push_back(sequence);
-    else if (axes < fewest)
-      nearest.back() = sequence;
-    else
-      continue;
-    fewest = axes;
-  }
-  return nearest;
-}
-
-class CellChoice {
- public:
-  explicit CellChoice(const Suite& suite) : settings_(*suite.attribution) {
-    if (settings_.cells)
-      expression_.assign(*settings_.cells);
-    else
-      base_ = baseSequences(suite);
-  }
-
-  bool includes(const PlannedSequence& sequence, const CellResult& cell) const {
-    if (!settings_.everyFrame && cell.frame != sequence.frames.back()) return false;
-    if (settings_.cells) return std::regex_search(cell.key(), expression_);
-    return std::ranges::any_of(base_, [&](const PlannedSequence& base) {
-      return base.scene == sequence.scene && base.technique == sequence.technique && !sequence.external;
-    });
-  }
-
- private:
-  const AttributionSettings& settings_;
-  std::regex expression_;
-  std::vector<PlannedSequence> base_;
 };
 
 MetricValues definedValues(const Metrics& metrics) {
@@ -161,7 +111,7 @@ class Attributor {
   std::vector<Job> chooseJobs(const std::vector<CellResult>& cells) const {
     std::map<std::string, const CellResult*> byKey;
     for (const CellResult& cell : cells) byKey.emplace(cell.key(), &cell);
-    const CellChoice choice(c_.suite);
+    const AttributedCells choice(c_.suite);
     std::vector<Job> jobs;
     for (const PlannedSequence& sequence : c_.plan.sequences)
       for (const int frame : sequence.frames) {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "raster/lookup.h"
 #include "raster/planar.h"
@@ -154,25 +155,27 @@ double edgeStepRatio(const CubeFaces& faces) {
   return across / std::max(inside, 1e-6 * across);
 }
 
-double meanRadiance(const CubeFaces& faces) {
-  const int n = faces.front().width();
-  double sum = 0.0;
-  for (const Image& face : faces)
-    for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n; ++x) {
-        const glm::dvec3 radiance(face(x, y));
-        sum += static_cast<double>(shading::cubeTexelSolidAngle(glm::ivec2(x, y), n)) *
-               (radiance.x + radiance.y + radiance.z) / 3.0;
-      }
-  return sum / (4.0 * std::numbers::pi);
-}
-
-double solidAngleError(int resolution) {
-  double sum = 0.0;
+Grid<double> texelSolidAngles(int resolution) {
+  Grid<double> angles(resolution, resolution);
   for (int y = 0; y < resolution; ++y)
     for (int x = 0; x < resolution; ++x)
-      sum += static_cast<double>(shading::cubeTexelSolidAngle(glm::ivec2(x, y), resolution));
+      angles(x, y) = static_cast<double>(shading::cubeTexelSolidAngle(glm::ivec2(x, y), resolution));
+  return angles;
+}
+
+double solidAngleError(const Grid<double>& solidAngles) {
+  const double sum = std::accumulate(solidAngles.begin(), solidAngles.end(), 0.0);
   return std::abs(6.0 * sum / (4.0 * std::numbers::pi) - 1.0);
+}
+
+double meanRadiance(const CubeFaces& faces, const Grid<double>& solidAngles) {
+  double sum = 0.0;
+  for (const Image& face : faces)
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const glm::dvec3 radiance(face[i]);
+      sum += solidAngles[i] * (radiance.x + radiance.y + radiance.z) / 3.0;
+    }
+  return sum / (4.0 * std::numbers::pi);
 }
 
 int misplacedFaces(const CubeFaces& faces, const CubeFaces& expected) {
@@ -205,9 +208,10 @@ MetricValues IntegrityMeter::measure(RasterSequence& sequence, const Technique& 
       if (level == 0) misplaced += misplacedFaces(faces, expected[probe]);
       LevelSums& sums = levels[static_cast<std::size_t>(level)];
       sums.edgeStep = std::max(sums.edgeStep, edgeStepRatio(faces));
-      sums.radiance += meanRadiance(faces);
+      const Grid<double>& angles = solidAngles(faces.front().width());
+      sums.radiance += meanRadiance(faces, angles);
       ++sums.probes;
-      angleError = std::max(angleError, solidAngleError(faces.front().width()));
+      angleError = std::max(angleError, solidAngleError(angles));
     }
   }
   MetricValues values = {{"probes", static_cast<double>(views.probes.size())},
@@ -218,6 +222,12 @@ MetricValues IntegrityMeter::measure(RasterSequence& sequence, const Technique& 
     values.emplace_back(fmt::format("radiance_mip{}", level), levels[level].radiance / levels[level].probes);
   }
   return values;
+}
+
+const Grid<double>& IntegrityMeter::solidAngles(int resolution) {
+  const auto [found, isNew] = solidAngles_.try_emplace(resolution);
+  if (isNew) found->second = texelSolidAngles(resolution);
+  return found->second;
 }
 
 const std::vector<CubeFaces>& IntegrityMeter::expectedFaces(const ProbeViews& views) {

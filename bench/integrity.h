@@ -22,11 +22,14 @@ using CubeFaces = std::array<Image, 6>;
 // for maps without any step. At least 2 texels along an edge.
 double edgeStepRatio(const CubeFaces& faces);
 
-// Mean radiance over the sphere and the channels, by the texels' solid angles.
-double meanRadiance(const CubeFaces& faces);
+// Of the texels of one face, steradians; all faces have the same.
+Grid<double> texelSolidAngles(int resolution);
 
 // |sum of the texels' solid angles / (4 pi) - 1|.
-double solidAngleError(int resolution);
+double solidAngleError(const Grid<double>& solidAngles);
+
+// Mean radiance over the sphere and the channels, by the texels' solid angles.
+double meanRadiance(const CubeFaces& faces, const Grid<double>& solidAngles);
 
 // Number of faces that look more like another face of `expected`, or like their own mirrored or turned, than like their
 // own. Faces of any one size each; compared at the smaller one, which must divide the other.
@@ -44,6 +47,9 @@ class IntegrityMeter {
   // What the probes ought to see, traced, in a few texels.
   const std::vector<CubeFaces>& expectedFaces(const ProbeViews& views);
 
+  const Grid<double>& solidAngles(int resolution);
+
+  std::map<int, Grid<double>> solidAngles_;                 // by resolution
   std::map<std::string, std::vector<CubeFaces>> expected_;  // of the last snapshot, by where its probes stand
   std::weak_ptr<const Snapshot> snapshot_;
 };

@@ -4,6 +4,7 @@
 #include <regex>
 #include <set>
 
+#include "bench/attribution_cells.h"
 #include "bench/axes.h"
 #include "scenes/error.h"
 #include "scenes/spec.h"
@@ -144,6 +145,8 @@ std::string printPlan(const Suite& suite, const Plan& plan) {
   text += fmt::format("{} cells in {} raster sequences{}, {} references, {} cost measurements of {} repetitions\n",
                       plan.cellCount(), rasters, external, references, suite.cost.repetitions > 0 ? rasters : 0,
                       suite.cost.repetitions);
+  if (const std::size_t attributed = countAttributedCells(suite, plan); attributed > 0)
+    text += fmt::format("attribution of {} cells\n", attributed);
   return text;
 }
 

@@ -77,7 +77,7 @@ TEST(MisplacedFaces, AnotherBrightnessDoesNotMakeThem) {
 TEST(MeanRadiance, WeighsTexelsByTheirSolidAngle) {
   CubeFaces faces;
   faces.fill(Image(16, 16, glm::vec3(1.0f, 2.0f, 3.0f)));
-  EXPECT_NEAR(meanRadiance(faces), 2.0, 1e-5);
+  EXPECT_NEAR(meanRadiance(faces, texelSolidAngles(16)), 2.0, 1e-5);
   // Of the squared cosine to +X the mean over the sphere is 1/3; the midpoint rule errs by less than 1/n^2.
   for (int face = 0; face < 6; ++face)
     for (int y = 0; y < 16; ++y)
@@ -86,12 +86,12 @@ TEST(MeanRadiance, WeighsTexelsByTheirSolidAngle) {
         const float c = glm::normalize(shading::cubeDirection(face, st)).x;
         faces[static_cast<std::size_t>(face)](x, y) = glm::vec3(c * c);
       }
-  EXPECT_NEAR(meanRadiance(faces), 1.0 / 3.0, 1.0 / 256.0);
+  EXPECT_NEAR(meanRadiance(faces, texelSolidAngles(16)), 1.0 / 3.0, 1.0 / 256.0);
 }
 
 TEST(SolidAngles, SumToTheSphereAtEveryResolution) {
   // Differences of angles near 1 in float, 6e-8 each, of texels of which there are n^2.
-  for (int n = 1; n <= 256; n *= 2) EXPECT_LT(solidAngleError(n), 1e-7 * (1 + n * n)) << n;
+  for (int n = 1; n <= 256; n *= 2) EXPECT_LT(solidAngleError(texelSolidAngles(n)), 1e-7 * (1 + n * n)) << n;
 }
 
 class IntegrityOfCaptures : public RasterTest {
