@@ -124,6 +124,27 @@ TEST_P(RasterIterations, RoughLobesAreTheSameWithEveryFilter) {
     }
 }
 
+// Of which less is recorded if they are everywhere the same.
+TEST_P(RasterIterations, MirrorsOfEveryMaterialAndFresnelLawAreTheSame) {
+  Material glowing = makeMirrorMaterial("glowing", vec3(0.6f));
+  glowing.constants.emission = glm::vec4(0.1f, 0.3f, 0.2f, 1.0f);
+  const std::vector<Material> materials = {
+      makeMirrorMaterial("tinted", vec3(0.9f, 0.5f, 0.1f)), glowing,
+      makeMetalMaterial("gold", vec3(0.18f, 0.42f, 1.37f), vec3(3.42f, 2.35f, 1.77f), 0.0f)};
+  for (const Material& ball : materials) expectSame({snapshotOf(makeBallBetweenMirrors(ball))}, withBounces(3));
+  for (const char* law : {"schlick", "ratio?bias=0.1&scale=0.8&power=3"}) {
+    Technique technique = withBounces(3);
+    technique.fresnel = parseSpec(law);
+    expectSame({snapshotOf(makeBallBetweenMirrors(materials.back()))}, technique);
+  }
+}
+
+TEST_P(RasterIterations, MirrorsOfSeveralMaterialsThatShareAProbeAreTheSame) {
+  Technique technique = withBounces(3);
+  technique.sharing = parseSpec("count?probes=2");
+  expectSame({snapshotOf(makeBallBetweenMirrors(makeMirrorMaterial("ball")))}, technique, 2);
+}
+
 TEST_P(RasterIterations, CoatsOfSurfacesWithoutProbesAreTheSame) {
   Material coated = makeDiffuseMaterial("coated", vec3(0.5f, 0.4f, 0.3f));
   coated.constants.kind.x = shading::kSurfaceGlossy;
@@ -249,6 +270,22 @@ TEST(TexelRect, HoldsTheBoxAndAMargin) {
   EXPECT_EQ(texelsShowing(box, view, 64), (TexelRect{23, 23, 41, 33}));
   const Bounds around = {vec3(-1.0f), vec3(1.0f)};
   EXPECT_EQ(texelsShowing(around, view, 64), (TexelRect{0, 0, 64, 64}));
+}
+
+// Half a metre beside the view and two metres ahead, a quarter of the half width from the middle; what is as near as
+// the near plane is out of sight to all sides.
+TEST(TexelRect, HoldsOnlyWhatIsBeforeTheNearPlane) {
+  shading::View view;
+  view.origin = {0.0f, 0.0f, 0.0f, 0.1f};
+  view.forward = {0.0f, 0.0f, -1.0f, 0.0f};
+  view.right = {1.0f, 0.0f, 0.0f, 0.0f};
+  view.down = {0.0f, -1.0f, 0.0f, 0.0f};
+  const Bounds beside = {vec3(0.5f, -0.25f, -2.0f), vec3(0.75f, 0.25f, 5.0f)};
+  EXPECT_EQ(texelsShowing(beside, view, 64), (TexelRect{39, 0, 64, 64}));
+  const Bounds ahead = {vec3(0.5f, -0.25f, -2.0f), vec3(0.75f, 0.25f, -1.0f)};
+  EXPECT_EQ(texelsShowing(ahead, view, 64), (TexelRect{39, 23, 57, 41}));
+  const Bounds behind = {vec3(-1.0f, -1.0f, 1.0f), vec3(1.0f, 1.0f, 5.0f)};
+  EXPECT_EQ(texelsShowing(behind, view, 64).texels(), 0);
 }
 
 TEST(TexelRect, JoinsToTheSmallestThatHoldsBoth) {
