@@ -64,13 +64,14 @@ const LOG_FROM = 12;     // largest over smallest value
 const LOG_MARGIN = 1.15;  // beyond both
 
 const ZERO_BELOW = 0.4;   // smallest over largest value
+const SAME_FROM = 0.98;   // likewise: no close look at next to no difference
 
 // A logarithmic scale where values span much and are positive, one from 0 where they span some, else a close one.
 export function scaleFor(values) {
   const known = values.filter((v) => Number.isFinite(v));
   const low = Math.min(...known), high = Math.max(...known);
   return low > 0 && high / low > LOG_FROM ? {type: "log", domain: [low / LOG_MARGIN, high * LOG_MARGIN]}
-    : {type: "linear", zero: false, nice: true, domain: [low > ZERO_BELOW * high && low < high ? low : Math.min(low, 0), high]};
+    : {type: "linear", zero: false, nice: true, domain: [low > ZERO_BELOW * high && low < SAME_FROM * high ? low : Math.min(low, 0), high]};
 }
 
 export const numberAxis = (scale, orient, title) => ({scale, orient, title, tickCount: 5, format: "~g"});

@@ -105,14 +105,18 @@ function linesSpec(points, {xTitle, yTitle, colourTitle, xValues, colourValues, 
   }};
 }
 
-// Where an axis stands while another varies: at its largest number, or else at its first value.
-const standing = (axis) => (isNumeric(axis.values) ? axis.values.at(-1) : axis.values[0]);
+// Where an axis stands while another varies: where most techniques have it (suites that vary one axis at a time), or else
+// at its largest number or first value.
+function standing(view, axis) {
+  const common = axis.values.find((value) => 2 * view.sequences.filter((s) => s.technique[axis.name] === value).length > view.sequences.length);
+  return common ?? (isNumeric(axis.values) ? axis.values.at(-1) : axis.values[0]);
+}
 
 function standingSequences(view, free) {
   const fixed = view.axes.filter((axis) => !free.includes(axis.name));
   return {
-    sequences: view.sequences.filter((s) => fixed.every((axis) => s.technique[axis.name] === standing(axis))),
-    note: fixed.length ? `At ${fixed.map((axis) => `${axis.name}=${standing(axis)}`).join(", ")}.` : "",
+    sequences: view.sequences.filter((s) => fixed.every((axis) => s.technique[axis.name] === standing(view, axis))),
+    note: fixed.length ? `At ${fixed.map((axis) => `${axis.name}=${standing(view, axis)}`).join(", ")}.` : "",
   };
 }
 
