@@ -1,7 +1,6 @@
 #include "bench/attribution_runner.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "bench/attribution_cells.h"
@@ -10,6 +9,7 @@
 #include "bench/bounce_depth.h"
 #include "bench/interrupt.h"
 #include "bench/oracle.h"
+#include "bench/traced_maps.h"
 #include "bench/truth.h"
 #include "raster/lookup.h"
 #include "scenes/error.h"
@@ -37,38 +37,6 @@ AttributionStep stepOf(const std::string& step, const RegionErrors& errors) {
   return {
       step, {{"mse", errors.mse}, {"relmse", errors.relmse}, {"bias", errors.bias}, {"flip_hdr", errors.flipHdr}}, {}};
 }
-
-// Everything that determines traced maps but the scene and the frame.
-std::string keyOf(const ProbeViews& views, const ReferenceSettings& settings, bool withDistances) {
-  std::string key =
-      fmt::format("depth {} spp {} distances {}", settings.depth.value_or(0), settings.spp, withDistances ? 1 : 0);
-  for (const ProbeView& probe : views.probes)
-    key += fmt::format(" | {} {} {} {} {} [{}]", probe.position.x, probe.position.y, probe.position.z, probe.zNear,
-                       probe.resolutionPx, fmt::join(probe.hidden, ","));
-  return key;
-}
-
-// Maps that were traced last, for the next cells of the same frame.
-class TracedMaps {
- public:
-  const OracleMaps& obtain(const ProbeViews& views, const ReferenceSettings& settings, bool withDistances) {
-    std::string key = keyOf(views, settings, withDistances);
-    auto found = std::ranges::find(kept_, key, &Kept::first);
-    if (found == kept_.end()) {
-      constexpr std::size_t kMostKept = 3;  // large ones take 76 MB a probe
-      if (kept_.size() == kMostKept) kept_.erase(kept_.begin());
-      kept_.emplace_back(std::move(key), traceMaps(views, settings, withDistances));
-    } else {
-      std::rotate(found, found + 1, kept_.end());  // the last one was used last
-    }
-    return kept_.back().second;
-  }
-  void clear() { kept_.clear(); }
-
- private:
-  using Kept = std::pair<std::string, OracleMaps>;
-  std::vector<Kept> kept_;
-};
 
 class Attributor {
  public:
@@ -278,6 +246,26 @@ class Attributor {
 };
 
 }  // namespace
+
+void checkAttribution(const Suite& suite, const Scenes& scenes, const Plan& plan, RasterDevice& device) {
+  if (!suite.attribution) return;
+  const AttributedCells chosen(suite);
+  const ImageSettings& image = suite.image;
+  for (const PlannedSequence& sequence : plan.sequences) {
+    const auto isChosen = [&](int frame) { return chosen.includes(sequence, makeCell(suite, sequence, frame)); };
+    if (sequence.external || !takesOracleMaps(sequence.technique) || std::ranges::none_of(sequence.frames, isChosen))
+      continue;
+    const auto snapshot = makeSnapshot(scenes[sequence.scene], sequence.frames.back(),
+                                       suite.scenes[sequence.scene].camera, image.aspect());
+    for (const RasterStep& step : rasterSteps(sequence.technique, suite.attribution->resolution)) {
+      try {
+        RasterSequence::check(device, step.technique, *snapshot, image.widthPx, image.heightPx, image.samplesPerAxis);
+      } catch (const Error& error) {
+        throw Error(error.kind(), fmt::format("attribution, step '{}': {}", step.step, error.what()));
+      }
+    }
+  }
+}
 
 std::vector<Attribution> attribute(const RunContext& context, const std::vector<CellResult>& cells) {
   if (!context.suite.attribution) return {};

@@ -310,15 +310,15 @@ class Runner {
     writePngEncoded((c_.directory.folder() / cell.pictures.flip).string(), magma(flipMap));
   }
 
-  // The grid's axes, and the one that the scene varies.
+  // The grid's axes, and what the scene varies.
   std::string techniqueName(const PlannedSequence& sequence) const {
     std::string name;
     const auto append = [&](const Axis& axis) {
       name += fmt::format("-{}={}", axis.name, fileName(axis.print(sequence.technique)));
     };
     for (const auto& [axis, values] : c_.suite.grid) append(axisNamed(axis));
-    for (const auto& [name_, values] : suiteScene(sequence.scene).vary)
-      if (const Axis& axis = axisNamed(name_); axis.print(sequence.technique) != axis.print(c_.suite.technique))
+    for (const std::string& varied : variedAxes(suiteScene(sequence.scene).vary))
+      if (const Axis& axis = axisNamed(varied); axis.print(sequence.technique) != axis.print(c_.suite.technique))
         append(axis);
     return name;
   }
@@ -420,6 +420,7 @@ void checkPlan(const Suite& suite, const Scenes& scenes, const Plan& plan, Raste
     RasterSequence::check(device, sequence.technique, *snapshot, suite.image.widthPx, suite.image.heightPx,
                           suite.image.samplesPerAxis);
   }
+  checkAttribution(suite, scenes, plan, device);
 }
 
 RunOutcome runPlan(const RunContext& context) { return Runner(context).run(); }
