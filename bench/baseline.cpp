@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "bench/cell_json.h"
 #include "bench/platform.h"
 #include "bench/results_json.h"
 #include "bench/tolerance_json.h"
@@ -20,13 +21,16 @@ constexpr DocumentFormat kFormat{"baseline", "baseline_version", kBaselineSchema
 
 GatedMetrics gatedMetrics(const Metrics& metrics, const Tolerances& tolerance) {
   GatedMetrics gated;
-  for (const auto& [key, limit] : tolerance) gated.emplace_back(key, metricValue(metrics, key));
+  for (const auto& [key, limit] : tolerance)
+    if (key != kIntegrityTolerance) gated.emplace_back(key, metricValue(metrics, key));
   return gated;
 }
 
 BaselineCell makeCell(const CellResult& cell, const Tolerances& tolerance, const AxisValues& defaults) {
-  BaselineCell made{shortKey(cell.key(), defaults), gatedMetrics(cell.metrics, tolerance), std::nullopt, cell.counters};
+  BaselineCell made{
+      shortKey(cell.key(), defaults), gatedMetrics(cell.metrics, tolerance), std::nullopt, cell.counters, {}};
   if (cell.maskMetrics) made.maskMetrics = gatedMetrics(*cell.maskMetrics, tolerance);
+  if (findTolerance(tolerance, kIntegrityTolerance) != nullptr) made.integrity = cell.integrity;
   return made;
 }
 
@@ -49,12 +53,18 @@ Json baselineCellToJson(const BaselineCell& cell) {
   json["metrics"] = gatedMetricsToJson(cell.metrics);
   json["mask_metrics"] = cell.maskMetrics ? gatedMetricsToJson(*cell.maskMetrics) : nullptr;
   json["counters"] = countersToJson(cell.counters);
+  if (!cell.integrity.empty()) json["integrity"] = metricValuesToJson(cell.integrity);
   return json;
 }
 
 BaselineCell baselineCellFromJson(const Json& json) {
-  BaselineCell cell{json.at("key").get<std::string>(), gatedMetricsFromJson(json.at("metrics")), std::nullopt,
-                    countersFromJson(json.at("counters"))};
+  BaselineCell cell{json.at("key").get<std::string>(),
+                    gatedMetricsFromJson(json.at("metrics")),
+                    std::nullopt,
+                    countersFromJson(json.at("counters")),
+                    {}};
+  if (const auto integrity = json.find("integrity"); integrity != json.end())
+    cell.integrity = metricValuesFromJson(*integrity);
   if (const Json& mask = json.at("mask_metrics"); !mask.is_null()) cell.maskMetrics = gatedMetricsFromJson(mask);
   return cell;
 }
@@ -74,7 +84,9 @@ BaselineCost baselineCostFromJson(const Json& json) {
 void requireGatedMetrics(const GatedMetrics& metrics, const Baseline& baseline, const BaselineCell& cell,
                          const std::string& place) {
   const auto keyOf = [](const auto& pair) { return pair.first; };
-  if (!std::ranges::equal(metrics, baseline.tolerance, {}, keyOf, keyOf))
+  Tolerances ofMetrics = baseline.tolerance;
+  std::erase_if(ofMetrics, [](const auto& pair) { return pair.first == kIntegrityTolerance; });
+  if (!std::ranges::equal(metrics, ofMetrics, {}, keyOf, keyOf))
     throwInputError("a baseline cell holds exactly the metrics that have a tolerance, '{}' does not in cell '{}'",
                     place, cell.key);
 }
@@ -87,7 +99,8 @@ void requireGated(const Tolerances& tolerances, const Baseline& baseline, const 
 }
 
 void requireConsistent(const Baseline& baseline, const std::string& place) {
-  for (const auto& [key, limit] : baseline.tolerance) metricValue({}, key);
+  for (const auto& [key, limit] : baseline.tolerance)
+    if (key != kIntegrityTolerance) metricValue({}, key);
   requireGated(baseline.warnTolerance, baseline, place);
   for (const auto& [scope, levels] : baseline.sceneTolerances)
     for (const Tolerances& level : {levels.fail, levels.warn}) requireGated(level, baseline, place);
@@ -96,6 +109,8 @@ void requireConsistent(const Baseline& baseline, const std::string& place) {
     if (!keys.insert(cell.key).second) throwInputError("a cell may stand once in '{}', twice: {}", place, cell.key);
     requireGatedMetrics(cell.metrics, baseline, cell, place);
     if (cell.maskMetrics) requireGatedMetrics(*cell.maskMetrics, baseline, cell, place);
+    if (!cell.integrity.empty() && findTolerance(baseline.tolerance, kIntegrityTolerance) == nullptr)
+      throwInputError("'{}' holds the integrity of cell '{}' without a tolerance for it", place, cell.key);
   }
 }
 

@@ -23,6 +23,7 @@ struct BaselineCell {
   GatedMetrics metrics;
   std::optional<GatedMetrics> maskMetrics;
   std::vector<std::pair<std::string, std::int64_t>> counters;
+  MetricValues integrity;  // empty in files from before it was stored, and where it is not gated
 };
 
 struct BaselineCost {

@@ -112,6 +112,7 @@ class Comparison {
     else if (before.maskMetrics || after.maskMetrics)
       report_.findings.push_back(
           makeFinding(before.maskMetrics ? FindingKind::missing : FindingKind::surplus, key, "mask"));
+    compareIntegrity(key, scope, before.integrity, after.integrity);
     if (sameDriver(run_.provenance, baseline_.provenance)) compareCounters(key, before, after);
   }
 
@@ -133,6 +134,16 @@ class Comparison {
       return true;
     };
     if (!find(levels.fail, Level::fail) && levels.warn != nullptr) find(*levels.warn, Level::warn);
+  }
+
+  // Those of the baseline: programs learn to measure more.
+  void compareIntegrity(const std::string& cell, const std::string& scope, const MetricValues& before,
+                        const MetricValues& after) {
+    for (const auto& [name, value] : before) {
+      const auto found = std::ranges::find(after, name, &MetricValues::value_type::first);
+      const std::optional<double> now = found == after.end() ? std::nullopt : std::optional(found->second);
+      compareMetric(cell, "integrity " + name, value, now, levelsOf(baseline_, scope, kIntegrityTolerance));
+    }
   }
 
   // Those of the baseline: programs learn to count more.

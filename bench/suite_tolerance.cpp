@@ -67,21 +67,27 @@ ToleranceLevels readPreset(TomlReader& table) {
   throwInputError("{}: preset {}", placeOf(table.file(), table.require("preset")), unknownMessage(*name, names));
 }
 
-// In the order of the table of metrics, which files are written in.
-Tolerances inTableOrder(const Tolerances& tolerances) {
+// What may have a tolerance, in the order that files are written in.
+std::vector<std::string> gatedKeys() {
+  std::vector<std::string> keys;
+  for (const MetricInfo& metric : metricTable()) keys.push_back(metric.key);
+  keys.emplace_back(kIntegrityTolerance);
+  return keys;
+}
+
+Tolerances inOrder(const Tolerances& tolerances) {
   Tolerances ordered;
-  for (const MetricInfo& metric : metricTable())
-    if (const Tolerance* tolerance = findTolerance(tolerances, metric.key))
-      ordered.emplace_back(metric.key, *tolerance);
+  for (const std::string& key : gatedKeys())
+    if (const Tolerance* tolerance = findTolerance(tolerances, key)) ordered.emplace_back(key, *tolerance);
   return ordered;
 }
 
 ToleranceLevels readLevels(TomlReader& table) {
   ToleranceLevels levels = readPreset(table);
-  for (const MetricInfo& metric : metricTable())
-    if (const toml::node* node = table.find(metric.key)) readMetric(*node, metric.key, table.file(), levels);
+  for (const std::string& key : gatedKeys())
+    if (const toml::node* node = table.find(key)) readMetric(*node, key, table.file(), levels);
   table.finish();
-  return {inTableOrder(levels.fail), inTableOrder(levels.warn)};
+  return {inOrder(levels.fail), inOrder(levels.warn)};
 }
 
 }  // namespace

@@ -23,6 +23,9 @@ struct Tolerance {
 // By metric key (see metricTable()), in the order of the suite. A metric without one is not gated.
 using Tolerances = std::vector<std::pair<std::string, Tolerance>>;
 
+// Stands among the metrics for all of CellResult::integrity.
+inline constexpr char kIntegrityTolerance[] = "integrity";
+
 // A change beyond `fail` fails the gate; one beyond `warn`, which holds some of the metrics of `fail`, is reported
 // only.
 struct ToleranceLevels {

@@ -24,7 +24,8 @@ TolerancePreset preset(const std::string& name, double relative, double unit) {
                  {"relmse", {Kind::plain, unit, relative, {}}},
                  {"ssim", {Kind::plain, 100 * unit, 0, {}}},
                  {"flip_ldr", {Kind::plain, 10 * unit, relative, {}}},
-                 {"flip_hdr", {Kind::plain, 10 * unit, relative, {}}}};
+                 {"flip_hdr", {Kind::plain, 10 * unit, relative, {}}},
+                 {kIntegrityTolerance, {Kind::plain, 10 * unit, relative, {}}}};
   for (const auto& [metric, tolerance] : levels.fail) levels.warn.emplace_back(metric, scaled(tolerance, kWarnShare));
   return {name, std::move(levels)};
 }

@@ -27,8 +27,11 @@ TEST(Baseline, KeepsLevelsScenesAndRepetitions) {
   run.warnTolerance = {{"relmse", plain(1e-4, 0)}};
   run.sceneTolerances["scene=builtin:a camera=main"] = {{{"relmse", plain(1, 0)}}, {{"relmse", plain(0.5, 0)}}};
   run.cells[0].cost->ratios = {2.9, 3.0, 3.1};
+  run.cells[0].integrity = {{"probes", 2}};
+  run.tolerance.emplace_back(kIntegrityTolerance, plain(1, 0));
   const Baseline read = baselineFromJson(toJson(baselineOf(run)), "memory");
   EXPECT_EQ(read.warnTolerance, run.warnTolerance);
+  EXPECT_EQ(read.cells[0].integrity, run.cells[0].integrity);
   EXPECT_EQ(read.sceneTolerances, run.sceneTolerances);
   EXPECT_EQ(read.costs.begin()->second.ratios, run.cells[0].cost->ratios);
 }

@@ -28,6 +28,8 @@ Results smallRun() {
   run.warnTolerance = {{"relmse", plain(1e-4, 0)}};
   run.sceneTolerances["scene=builtin:a camera=main"] = {{{"relmse", any({plain(1, 0)})}}, {}};
   run.cells[0].cost->ratios = {2.9, 3.0, 3.1};
+  run.tolerance.emplace_back(kIntegrityTolerance, plain(1, 0));
+  run.cells[0].integrity = {{"probes", 2}};
   return run;
 }
 

@@ -105,6 +105,20 @@ TEST(Gate, ExitCodes_AreThoseOfTheCommandLine) {
   EXPECT_EQ(exitCode(Verdict::drift), 4);
 }
 
+TEST(GateIntegrity, IsComparedWhereItHasATolerance) {
+  Results before = runWith(0.5);
+  before.cells[0].integrity = {{"misplaced_faces", 0}, {"edge_step_mip0", 1.2}};
+  Results after = before;
+  after.cells[0].integrity = {{"misplaced_faces", 2}, {"edge_step_mip0", 1.21}, {"younger", 3}};
+  EXPECT_EQ(verdictOf(before, after), Verdict::pass);
+  before.tolerance.emplace_back(kIntegrityTolerance, plain(0, 0.1));
+  const GateReport report = check(after, baselineOf(before));
+  ASSERT_EQ(report.findings.size(), 1u);
+  EXPECT_EQ(report.findings[0].quantity, "integrity misplaced_faces");
+  after.cells[0].integrity.clear();
+  EXPECT_EQ(check(after, baselineOf(before)).findings.size(), 2u);
+}
+
 // relMSE 0.5 may change by 0.1, a change above 0.02 is reported.
 Results runWithLevels(double relmse) {
   Results run = runWith(relmse);
