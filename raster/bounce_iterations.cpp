@@ -27,11 +27,23 @@ void filterLevels(ProbeMaps& maps, const std::vector<bool>& wanted, FrameWork& w
 
 BounceIterations::BounceIterations(RasterDevice::Impl& device, const Technique& technique, ScenePass& scenePass,
                                    ProbeMaps& maps, int probes)
-    : technique_(technique), scenePass_(scenePass), maps_(maps) {
+    : device_(device), technique_(technique), scenePass_(scenePass), maps_(maps) {
   if (technique.hysteresis > 0.0f) history_.emplace(device.context, device.programs, technique.hysteresis);
-  if (!repeatsLookups(technique) || !lookupRecordsFit(device.limits, technique.resolution)) return;
-  records_.emplace(device.context, device.programs, device.limits, technique, technique.resolution, probes);
+  makeRecords(static_cast<std::size_t>(probes));
+}
+
+void BounceIterations::makeRecords(std::size_t probes) {
+  if (!repeatsLookups(technique_) || !lookupRecordsFit(device_.limits, technique_.resolution)) return;
+  records_.reset();  // first, so that both needn't fit
+  records_.emplace(device_.context, device_.programs, device_.limits, technique_, technique_.resolution,
+                   static_cast<int>(probes));
   maps_.setFurtherColors(records_->targets());
+}
+
+// Records are of one frame only.
+void BounceIterations::reorder(const std::vector<int>& before) {
+  if (history_) history_->reorder(before);
+  if (before.size() != redo_.size()) makeRecords(before.size());
 }
 
 void BounceIterations::run(const std::vector<ProbeFace>& due, std::vector<bool>& shown, const std::vector<bool>& levels,

@@ -30,6 +30,9 @@ class BounceIterations {
   void run(const std::vector<ProbeFace>& due, std::vector<bool>& shown, const std::vector<bool>& levels,
            FrameWork& work);
 
+  // Follows probes that are numbered anew, of which there may be more or fewer; see probesBefore().
+  void reorder(const std::vector<int>& before);
+
   // Of the records that it keeps.
   std::int64_t bytes() const { return records_ ? records_->bytes() : 0; }
 
@@ -45,6 +48,7 @@ class BounceIterations {
     bool isLast = false;  // of the iterations
   };
 
+  void makeRecords(std::size_t probes);
   void begin(const std::vector<ProbeFace>& due, std::size_t probes);
   void iterate(const std::vector<ProbeFace>& due, Run& run);
   void capture(const std::vector<ProbeFace>& faces, Run& run);
@@ -57,6 +61,7 @@ class BounceIterations {
     return redo_[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)];
   }
 
+  RasterDevice::Impl& device_;
   const Technique& technique_;
   ScenePass& scenePass_;
   ProbeMaps& maps_;

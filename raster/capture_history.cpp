@@ -1,6 +1,9 @@
 #include "raster/capture_history.h"
 
+#include <utility>
+
 #include "raster/gpu_structs.h"
+#include "raster/probe_owners.h"
 
 namespace pb {
 
@@ -19,6 +22,15 @@ void CaptureHistory::blend(const ProbeFace& face, const RenderTarget& target, co
   gl_.CopyImageSubData(captured.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face.face, earlier.layers.id(), GL_TEXTURE_2D_ARRAY,
                        0, 0, 0, face.face, target.widthPx, target.heightPx, 1);
   isKept = true;
+}
+
+void CaptureHistory::reorder(const std::vector<int>& before) {
+  std::vector<Earlier> earlier(before.size());
+  for (std::size_t probe = 0; probe < before.size(); ++probe)
+    if (const auto index = static_cast<std::size_t>(before[probe]);
+        before[probe] != kNewProbe && index < earlier_.size())
+      earlier[probe] = std::move(earlier_[index]);
+  earlier_ = std::move(earlier);
 }
 
 // Starts anew when the map's size changes.

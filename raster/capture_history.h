@@ -22,6 +22,9 @@ class CaptureHistory {
   // is.
   void blend(const ProbeFace& face, const RenderTarget& target, const gl::Texture& captured, bool isLast);
 
+  // Follows probes that are numbered anew; see probesBefore().
+  void reorder(const std::vector<int>& before);
+
  private:
   struct Earlier {
     gl::Texture layers;

@@ -7,6 +7,7 @@
 #include "raster/captured_faces.h"
 #include "raster/frame_passes.h"
 #include "raster/lookup.h"
+#include "raster/probe_owners.h"
 #include "raster/probe_resolution.h"
 #include "raster/refresh/policies.h"
 #include "scenes/error.h"
@@ -48,6 +49,7 @@ void ProbeCaptures::beginFrame(const Snapshot& snapshot) {
   areLookedUp_ = looksUpMaps(technique_, snapshot);
   nears_.clear();
   for (const Probe& probe : snapshot.probes) nears_.push_back(probe.zNear);
+  followProbes();
   allocate();
   resize();
   if (technique_.probes == ProbeUse::given) showGiven();
@@ -55,6 +57,29 @@ void ProbeCaptures::beginFrame(const Snapshot& snapshot) {
   device_.fault.changeDue(due_, history_.frame);
   shown_ = mapsShownAtFirst();
   levels_ = probesWithLevels(technique_, snapshot);
+}
+
+// Probes that are joined with others, or part from them, start anew: no map fits where they stand now.
+void ProbeCaptures::followProbes() {
+  const std::vector<std::vector<int>> owners = ownersOfProbes(*snapshot_);
+  const std::vector<int> before = probesBefore(owners_, owners);
+  const bool areTheSame = owners == owners_;
+  owners_ = owners;
+  if (history_.frame == 0 || areTheSame) return;
+  reorder(history_, before);
+  filled_ = reordered(std::move(filled_), before, std::size_t{0});
+  isGiven_ = reordered(std::move(isGiven_), before, false);
+  isComplete_ = reordered(std::move(isComplete_), before, false);
+  if (!maps_) return;
+  checkProbesFit(device_.limits, technique_, static_cast<int>(owners.size()), levelFilter(technique_, *snapshot_),
+                 widthPx_, heightPx_, samplesPerAxis_);
+  const std::vector<int> wanted = probeResolutions(technique_, *snapshot_, heightPx_);
+  std::vector<int> resolutions = reordered(std::move(resolutions_), before, 0);
+  for (std::size_t probe = 0; probe < before.size(); ++probe)
+    if (before[probe] == kNewProbe) resolutions[probe] = wanted[probe];
+  resolutions_ = std::move(resolutions);
+  maps_->reorder(before, resolutions_);
+  if (iterations_) iterations_->reorder(before);
 }
 
 void ProbeCaptures::allocate() {
@@ -132,7 +157,8 @@ std::vector<gpu::PassConstants> ProbeCaptures::passes() const {
 // are about to be captured to show the sky.
 std::vector<bool> ProbeCaptures::mapsShownAtFirst() const {
   if (technique_.probes == ProbeUse::given) return std::vector<bool>(snapshot_->probes.size(), maps_.has_value());
-  std::vector<bool> shown(snapshot_->probes.size(), isCaptured() && history_.frame > 0);
+  std::vector<bool> shown = isComplete_;
+  shown.resize(snapshot_->probes.size(), false);
   if (technique_.feedback == Feedback::sky)
     for (const ProbeFace& f : due_) shown[static_cast<std::size_t>(f.probe)] = false;
   return shown;
@@ -172,7 +198,10 @@ void ProbeCaptures::fillMissingFaces(FrameWork& work) {
   if (!missing.empty()) work.counters.texelsFiltered += maps_->publish(missing);
 }
 
-void ProbeCaptures::endFrame() { advance(history_, due_, *std::exchange(snapshot_, nullptr)); }
+void ProbeCaptures::endFrame() {
+  isComplete_.assign(snapshot_->probes.size(), isCaptured());
+  advance(history_, due_, *std::exchange(snapshot_, nullptr));
+}
 
 std::vector<std::array<std::int64_t, 6>> ProbeCaptures::faceAges() const {
   if (!isCaptured()) return {};

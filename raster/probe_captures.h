@@ -51,6 +51,7 @@ class ProbeCaptures {
  private:
   bool hasMaps() const { return technique_.probes != ProbeUse::environmentOnly && areLookedUp_; }
   bool isCaptured() const { return technique_.probes == ProbeUse::dynamic && areLookedUp_; }
+  void followProbes();
   void allocate();
   void resize();
   void showGiven();
@@ -68,8 +69,10 @@ class ProbeCaptures {
   std::optional<ProbeMaps> maps_;
   std::optional<BounceIterations> iterations_;
   RefreshHistory history_;
-  std::map<int, GivenProbe> given_;  // for the next frame, by probe
-  std::vector<bool> isGiven_;        // by probe: its map, in its resolution
+  std::map<int, GivenProbe> given_;       // for the next frame, by probe
+  std::vector<std::vector<int>> owners_;  // by probe; see raster/probe_owners.h
+  std::vector<bool> isGiven_;             // by probe: its map, in its resolution
+  std::vector<bool> isComplete_;          // by probe: its map has been captured
   std::vector<std::size_t> filled_;  // by probe: 1 + the environment that faces show which are never captured; 0: none
   std::vector<float> nears_;         // by probe, metres
   // Of this frame.

@@ -4,6 +4,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "raster/probe_owners.h"
+
 namespace pb {
 
 ProbeMaps::ProbeMaps(gl::Context& context, Programs& programs, const Settings& settings)
@@ -104,6 +106,14 @@ void ProbeMaps::setFurtherColors(std::span<const gl::Texture* const> colors) {
 RenderTarget ProbeMaps::recordingTarget(const ProbeFace& face) {
   gl::setColorLayer(recordingFramebuffer_, mapOf(face.probe).captured(), face.face);
   return {recordingFramebuffer_.id(), mapOf(face.probe).resolution, mapOf(face.probe).resolution};
+}
+
+void ProbeMaps::reorder(const std::vector<int>& before, const std::vector<int>& resolutions) {
+  std::vector<Map> maps = std::exchange(maps_, {});
+  for (std::size_t probe = 0; probe < before.size(); ++probe)
+    maps_.push_back(before[probe] == kNewProbe ? makeMap(resolutions[probe])
+                                               : std::move(maps[static_cast<std::size_t>(before[probe])]));
+  context_.check("allocating cube maps");
 }
 
 void ProbeMaps::resize(int probe, int resolution) {

@@ -37,6 +37,10 @@ class ProbeMaps {
   void bind(int probe) const { bind(probe, gpu::kProbeUnit, gpu::kProbeDepthUnit); }
   void bindSecond(int probe) const { bind(probe, gpu::kSecondProbeUnit, gpu::kSecondProbeDepthUnit); }
 
+  // Follows probes that are numbered anew; see probesBefore(). New ones get maps of that many texels (by probe), which
+  // show nothing until they are captured.
+  void reorder(const std::vector<int>& before, const std::vector<int>& resolutions);
+
   // Makes a map anew with another number of texels. What it shows is scaled, until all of its faces are captured.
   void resize(int probe, int resolution);
 

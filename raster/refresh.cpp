@@ -6,6 +6,7 @@
 
 #include "raster/captured_faces.h"
 #include "raster/culling.h"
+#include "raster/probe_owners.h"
 #include "raster/reflection.h"
 #include "raster/refraction.h"
 #include "raster/refresh/policies.h"
@@ -13,6 +14,8 @@
 
 namespace pb {
 namespace {
+
+constexpr std::array<std::int64_t, 6> kNeverCaptured = {-1, -1, -1, -1, -1, -1};
 
 // Chains one value's bytes to a hash.
 template <class T>
@@ -77,14 +80,20 @@ std::vector<std::uint64_t> instanceHashes(const Snapshot& snapshot) {
 }
 
 // By instance: of which probes' maps it shows. The nearest ones of those without one of their own may become others,
-// when only the probes move.
+// when only the probes move. Probes are known by their owners: their numbers change when others are joined.
 std::vector<std::uint64_t> shownMapHashes(const Technique& technique, const Snapshot& snapshot) {
+  const std::vector<std::vector<int>> owners = ownersOfProbes(snapshot);
+  const auto mixInProbe = [&](std::uint64_t& hash, int probe) {
+    mixIn(hash, probe >= 0);
+    if (probe < 0) return;
+    for (const int owner : owners[static_cast<std::size_t>(probe)]) mixIn(hash, owner);
+  };
   std::vector<std::uint64_t> hashes;
   for (const SnapshotInstance& instance : snapshot.instances) {
     const Reflection reflection = reflectionOf(technique, snapshot, instance);
     std::uint64_t& hash = hashes.emplace_back(0);
-    mixIn(hash, reflection.probe);
-    mixIn(hash, reflection.second);
+    mixInProbe(hash, reflection.probe);
+    mixInProbe(hash, reflection.second);
     mixIn(hash, reflection.secondWeight);
   }
   return hashes;
@@ -166,9 +175,13 @@ std::vector<ProbeFace> dueFaces(const Spec& policy, const RefreshHistory& histor
   return due;
 }
 
+void reorder(RefreshHistory& history, const std::vector<int>& before) {
+  history.lastCapturedFrame = reordered(std::move(history.lastCapturedFrame), before, kNeverCaptured);
+  history.contentAtCapture = reordered(std::move(history.contentAtCapture), before, {});
+}
+
 void advance(RefreshHistory& history, const std::vector<ProbeFace>& faces, const Snapshot& snapshot) {
-  constexpr std::array<std::int64_t, 6> kNever = {-1, -1, -1, -1, -1, -1};
-  history.lastCapturedFrame.resize(snapshot.probes.size(), kNever);
+  history.lastCapturedFrame.resize(snapshot.probes.size(), kNeverCaptured);
   history.contentAtCapture.resize(snapshot.probes.size());
   const ByProbeAndFace<FaceContent> contents = faceContents(history.technique, snapshot);
   for (const ProbeFace& f : faces) {

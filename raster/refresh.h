@@ -52,6 +52,9 @@ std::uint64_t instanceHash(const Snapshot& snapshot, const SnapshotInstance& ins
 // never due.
 std::vector<ProbeFace> dueFaces(const Spec& policy, const RefreshHistory& history, const Snapshot& snapshot);
 
+// Follows probes that are numbered anew; see probesBefore(). New ones were never captured.
+void reorder(RefreshHistory& history, const std::vector<int>& before);
+
 // Records the capture of `faces` and moves on to the next frame.
 void advance(RefreshHistory& history, const std::vector<ProbeFace>& faces, const Snapshot& snapshot);
 
