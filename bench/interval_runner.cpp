@@ -58,7 +58,7 @@ MetricIntervals exactIntervals(const Metrics& metrics) {
 
 class IntervalRunner {
  public:
-  explicit IntervalRunner(const RunContext& context) : c_(context) {}
+  IntervalRunner(const RunContext& context, bool rescores) : c_(context), rescores_(rescores) {}
 
   void run(std::vector<CellResult>& cells) {
     const auto groups = groupsOf(cells);
@@ -107,12 +107,12 @@ class IntervalRunner {
       return;
     }
     const double exposure = c_.suite.scenes[scene].exposure;
-    const Mask mask = maker.make(snapshot(scene, frame), exposure, warnings)->mask;
+    const std::shared_ptr<const Truth> truth = maker.make(snapshot(scene, frame), exposure, warnings);
     const auto bytes = static_cast<std::size_t>(c_.suite.image.widthPx) *
                        static_cast<std::size_t>(c_.suite.image.heightPx) * sizeof(glm::vec3);
     const std::size_t most = std::max<std::size_t>(1, kMostBytes / bytes);
     for (std::size_t begin = 0; begin < group.size(); begin += most)
-      addToCells(reference, exposure, mask,
+      addToCells(reference, *truth, exposure,
                  Group(group.begin() + static_cast<std::ptrdiff_t>(begin),
                        group.begin() + static_cast<std::ptrdiff_t>(std::min(group.size(), begin + most))));
   }
@@ -127,9 +127,12 @@ class IntervalRunner {
   }
 
   // One reference without one of its batches at a time: prepared ones are large.
-  void addToCells(const ReferenceImage& reference, double exposure, const Mask& mask, const Group& group) {
+  void addToCells(const ReferenceImage& reference, const Truth& truth, double exposure, const Group& group) {
+    const Mask& mask = truth.mask;
     std::vector<Image> pictures(group.size());
     for (std::size_t i = 0; i < group.size(); ++i) pictures[i] = rgbOf(readImage(pictureOf(*group[i]).string()).pixels);
+    if (rescores_)
+      for (std::size_t i = 0; i < group.size(); ++i) rescore(truth, pictures[i], *group[i]);
     std::vector<Replicates> whole(group.size()), masked(group.size());
     const Image mean = reference.mean();
     const MetricsSettings display{.exposure = exposure, .clampForDisplay = true};
@@ -149,12 +152,25 @@ class IntervalRunner {
     }
   }
 
+  static void rescore(const Truth& truth, const Image& picture, CellResult& cell) {
+    const MetricsResult scores = truth.metrics.compare(picture, truth.mask.empty() ? nullptr : &truth.mask);
+    cell.metrics = scores.whole;
+    cell.maskMetrics = scores.masked;
+    cell.floor = truth.floor;
+    cell.maskFloor = truth.maskFloor;
+  }
+
   const RunContext& c_;
+  bool rescores_;
   std::optional<RasterSequence> ids_;
 };
 
 }  // namespace
 
-void addIntervals(const RunContext& context, std::vector<CellResult>& cells) { IntervalRunner(context).run(cells); }
+void addIntervals(const RunContext& context, std::vector<CellResult>& cells) {
+  IntervalRunner(context, false).run(cells);
+}
+
+void rescore(const RunContext& context, std::vector<CellResult>& cells) { IntervalRunner(context, true).run(cells); }
 
 }  // namespace pb

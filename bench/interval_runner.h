@@ -15,4 +15,8 @@ inline constexpr const char* kIntervalMetrics[] = {"flip_hdr", "flip_ldr", "ssim
 // noise costs nothing and gives intervals of no width.
 void addIntervals(const RunContext& context, std::vector<CellResult>& cells);
 
+// Scores the kept pictures anew, whole image and mask with floors and intervals, against the references that the suite
+// asks for now; what else the cells hold stays.
+void rescore(const RunContext& context, std::vector<CellResult>& cells);
+
 }  // namespace pb

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "bench/report/page.h"
 #include "bench/runner.h"
 #include "bench/shell_word.h"
+#include "bench/until_decided.h"
 #include "bench/version.h"
 #include "bench/work.h"
 #include "scenes/error.h"
@@ -27,7 +29,8 @@ struct RunOptions {
   std::string suite, output, store;
   std::vector<std::string> scenes, settings;
   std::optional<std::string> only, shard;
-  bool noCost = false, resume = false, dryRun = false;
+  bool noCost = false, resume = false, dryRun = false, untilDecided = false;
+  std::optional<double> budgetSeconds;
 };
 
 // The suite as the options change it.
@@ -93,6 +96,20 @@ int finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& sui
                                                  outcome.noisyReferences.size(), outcome.noisyReferences.front()));
 }
 
+// Lowers the suite's max_noise to what decides the ranking, as far as the budget goes.
+Ranking decide(const RunOptions& options, const std::string& folder, Suite& suite, const Scenes& scenes,
+               const Plan& plan, RasterDevice& device, const ReferenceStore& store) {
+  Progress progress;  // of its own: its phases are not those of the plan
+  RunDirectory pictures(folder + "-deciding", {suite.name, "deciding"}, false);
+  const double budget = options.budgetSeconds.value_or(std::numeric_limits<double>::infinity());
+  Ranking ranking = decideRanking({suite, scenes, plan, device, store, pictures, progress}, budget);
+  std::error_code kept;  // what is left behind hurts nobody
+  std::filesystem::remove_all(pictures.folder(), kept);
+  fmt::print(stderr, "{}\n", ranking.sentence);
+  suite.reference.maxNoise = ranking.maxNoise;
+  return ranking;
+}
+
 int run(const RunOptions& options, const GlobalOptions& globals) {
   Suite suite = effectiveSuite(options);
   const Scenes scenes = loadScenes(suite);
@@ -111,19 +128,25 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
 
   RasterDevice device(globals.backend());
   checkPlan(suite, scenes, plan, device);
-  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
   Progress progress;
-  provenance.controlOutcome = passControl(device, progress);
+  const std::string control = passControl(device, progress);
+  const std::string folder = options.output.empty() ? "out/" + suite.name : options.output;
+  std::optional<Ranking> ranking;
+  if (options.untilDecided) ranking = decide(options, folder, suite, scenes, plan, device, store);
+  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
+  provenance.controlOutcome = control;
   // Last, as it removes an earlier run.
-  RunDirectory directory(options.output.empty() ? "out/" + suite.name : options.output,
-                         {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
+  RunDirectory directory(folder, {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
   provenance.settings.emplace_back(kCommandSetting, commandOf(options));
   const RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
   if (!options.resume) {
     rates.record(progress.phases(), work);
     rates.save();
   }
-  return finishRun(outcome, std::move(provenance), suite, directory);
+  if (ranking) provenance.settings.emplace_back("ranking", ranking->sentence);
+  const int code = finishRun(outcome, std::move(provenance), suite, directory);
+  if (ranking && !ranking->isDecided()) throw Error(Failure::inconclusive, ranking->sentence);
+  return code;
 }
 
 // Says what an interrupt leaves behind.
@@ -152,6 +175,11 @@ void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action) 
   command->add_option("--store", options->store, "folder of stored references");
   command->add_flag("--no-cost", options->noCost, "measure errors only");
   command->add_flag("--resume", options->resume, "go on with a run that was stopped");
+  CLI::Option* decided =
+      command->add_flag("--until-decided", options->untilDecided, "add reference samples until the ranking is decided");
+  command->add_option("--budget-s", options->budgetSeconds, "seconds that --until-decided may take (default: no limit)")
+      ->needs(decided)
+      ->check(CLI::PositiveNumber);
   command->add_flag("--dry-run", options->dryRun, "print what would be measured");
   command->callback(
       [&action, &globals, options] { action = [&globals, options] { return runOrExplain(*options, globals); }; });
