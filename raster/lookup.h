@@ -23,8 +23,11 @@ struct Lookup {
   std::string (*defines)(const Spec&);
   bool readsDistances = false;  // of what the probe's map shows
   bool readsProbe = false;      // where the probe and its proxies are
-  bool isPlanar = false;        // reflections of flat reflectors come from mirrored views (raster/planar.h)
-  bool isSingleView = false;    // probes capture one view instead of six faces
+  // What is looked up depends on the ray and the probe, not on what maps show, so that iterations can look it up again
+  // (raster/lookup_records.h).
+  bool keepsDirections = false;
+  bool isPlanar = false;      // reflections of flat reflectors come from mirrored views (raster/planar.h)
+  bool isSingleView = false;  // probes capture one view instead of six faces
 };
 
 const std::vector<Lookup>& lookups();

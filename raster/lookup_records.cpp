@@ -4,6 +4,7 @@
 #include <array>
 
 #include "raster/gpu_structs.h"
+#include "raster/lookup.h"
 #include "raster/probe_maps.h"
 
 namespace pb {
@@ -31,12 +32,10 @@ GLuint quotientUp(int count, int divisor) { return static_cast<GLuint>((count + 
 }  // namespace
 
 bool repeatsLookups(const Technique& technique) {
-  // Directions of other lookups change with what is captured, or are none.
-  const std::string& lookup = technique.lookup.name;
-  const bool keepsDirections = lookup == "infinite" || lookup == "sphere-proxy" || lookup == "box-proxy";
   return technique.iterations == Iterations::incremental && technique.bounces > 1 &&
-         technique.probes == ProbeUse::dynamic && keepsDirections && technique.format == ProbeFormat::rgba16f &&
-         technique.storage == Storage::cube && technique.seamless && technique.hysteresis == 0.0f;
+         technique.probes == ProbeUse::dynamic && lookupOf(technique.lookup).keepsDirections &&
+         technique.format == ProbeFormat::rgba16f && technique.storage == Storage::cube && technique.seamless &&
+         technique.hysteresis == 0.0f;
 }
 
 bool lookupRecordsFit(const DeviceLimits& limits, int resolution) {

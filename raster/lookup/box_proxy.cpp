@@ -13,7 +13,8 @@ Lookup boxProxyLookup() {
                 lookupReader(spec).finish();
                 return std::string("#define BOX_PROXY\n");
               },
-          .readsProbe = true};
+          .readsProbe = true,
+          .keepsDirections = true};
 }
 
 }  // namespace pb

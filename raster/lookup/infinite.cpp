@@ -8,10 +8,12 @@ Lookup infiniteLookup() {
           .parameters = "",
           .description = "the direction itself, as if everything were infinitely far away",
           .source = "Greene 1986, and every textbook since",
-          .defines = [](const Spec& spec) {
-            lookupReader(spec).finish();
-            return std::string();
-          }};
+          .defines =
+              [](const Spec& spec) {
+                lookupReader(spec).finish();
+                return std::string();
+              },
+          .keepsDirections = true};
 }
 
 }  // namespace pb

@@ -19,7 +19,8 @@ Lookup sphereProxyLookup() {
                 if (radius > 0.0) defines += fmt::format("#define SPHERE_RADIUS {:#.9g}f\n", radius);
                 return defines;
               },
-          .readsProbe = true};
+          .readsProbe = true,
+          .keepsDirections = true};
 }
 
 }  // namespace pb
