@@ -30,17 +30,27 @@ std::vector<Technique> expandGrid(const Suite& suite) {
   return techniques;
 }
 
-// The grid's techniques, and on top of each of them every value that the scene varies, one at a time. What varies to
-// what it was is left out.
+void addDistinct(std::vector<Technique>& techniques, const Technique& technique) {
+  if (std::ranges::find(techniques, technique) == techniques.end()) techniques.push_back(technique);
+}
+
+// The grid's techniques, and on top of each of them what the scene varies, one value at a time. What varies to what was
+// there is left out.
 std::vector<Technique> techniquesOf(const SuiteScene& scene, const std::vector<Technique>& grid) {
   std::vector<Technique> techniques = grid;
-  for (const auto& [axis, values] : scene.vary)
-    for (const std::string& value : values)
-      for (const Technique& base : grid) {
-        Technique varied = base;
-        setAxis(varied, axis, value);
-        if (std::ranges::find(techniques, varied) == techniques.end()) techniques.push_back(std::move(varied));
-      }
+  for (const Variation& variation : scene.vary) {
+    std::vector<Technique> bases = grid;
+    for (Technique& base : bases) {
+      for (const auto& [axis, value] : variation.on) setAxis(base, axis, value);
+      addDistinct(techniques, base);
+    }
+    for (const auto& [axis, values] : variation.values)
+      for (const std::string& value : values)
+        for (Technique varied : bases) {
+          setAxis(varied, axis, value);
+          addDistinct(techniques, varied);
+        }
+  }
   return techniques;
 }
 

@@ -106,41 +106,6 @@ CostSettings readCost(TomlReader& suite) {
   return cost;
 }
 
-Technique readTechnique(TomlReader& suite) {
-  Technique technique;
-  std::optional<TomlReader> reader = suite.child("technique");
-  if (!reader) return technique;
-  for (const Axis& axis : axisTable())
-    if (const toml::node* node = reader->find(axis.name))
-      atPlace(suite.file(), *node, [&] { setAxis(technique, axis.name, scalarText(*node, axis.name, suite.file())); });
-  reader->finish();
-  return technique;
-}
-
-GridAxis readGridAxis(const std::string& name, const toml::node& node, const std::string& file) {
-  GridAxis axis{name, {}};
-  for (const toml::node& value : asArray(node, name, file)) {
-    std::string canonical =
-        atPlace(file, value, [&] { return canonicalAxisValue(name, scalarText(value, name, file)); });
-    if (std::ranges::find(axis.second, canonical) != axis.second.end())
-      throwInputError("{}: axis '{}' has the value {} twice", placeOf(file, value), name, canonical);
-    axis.second.push_back(std::move(canonical));
-  }
-  if (axis.second.empty()) throwInputError("{}: axis '{}' has no values", placeOf(file, node), name);
-  return axis;
-}
-
-// The axes of a table and their values.
-std::vector<GridAxis> readAxes(TomlReader& owner, std::string_view key) {
-  std::vector<GridAxis> grid;
-  std::optional<TomlReader> reader = owner.child(key);
-  if (!reader) return grid;
-  for (const Axis& axis : axisTable())
-    if (const toml::node* node = reader->find(axis.name)) grid.push_back(readGridAxis(axis.name, *node, owner.file()));
-  reader->finish();
-  return grid;
-}
-
 int parseFrame(std::string_view text) {
   const std::optional<long long> frame = parseInteger(text);
   if (!frame || *frame < 0 || *frame > kMaxFrame)
@@ -240,7 +205,7 @@ SuiteScene readScene(const toml::table& table, const std::string& file, const st
   if (const toml::node* frames = reader.find("frames")) scene.frames = readFrames(*frames, file);
   if (const auto warmup = reader.integer("warmup", 0, 1000)) scene.warmup = static_cast<int>(*warmup);
   scene.camera = reader.text("camera").value_or("");
-  scene.vary = readAxes(reader, "vary");
+  scene.vary = readVariations(reader);
   scene.tolerance = readSceneTolerances(reader, tolerance);
   scene.exposure = reader.number("exposure", -kMaxStops, kMaxStops).value_or(0);
   reader.finish();
@@ -371,8 +336,7 @@ std::string canonicalText(const Suite& suite) {
     text += fmt::format("scene {} camera '{}' exposure {} frames {}\n", scene.name, scene.camera, scene.exposure,
                         framesText(scene));
   for (const SuiteScene& scene : suite.scenes)
-    for (const auto& [axis, values] : scene.vary)
-      text += fmt::format("vary {} {} = {}\n", scene.name, axis, fmt::join(values, ","));
+    for (const Variation& variation : scene.vary) text += canonicalText(scene.name, variation);
   for (const auto& [axis, values] : suite.grid) text += fmt::format("grid {} = {}\n", axis, fmt::join(values, ","));
   for (const ExternalTechnique& external : suite.externals) text += fmt::format("external {}\n", external.canonical);
   return text + canonicalText(suite.attribution);

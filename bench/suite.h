@@ -9,13 +9,12 @@
 
 #include "bench/external_technique.h"
 #include "bench/suite_attribution.h"
+#include "bench/suite_axes.h"
 #include "bench/tolerance.h"
 #include "raster/technique.h"
 #include "reference/renderer.h"
 
 namespace pb {
-
-using GridAxis = std::pair<std::string, std::vector<std::string>>;  // axis and its values, canonical
 
 struct SuiteScene {
   std::string name;               // as the suite or the command line spells it; stands in results
@@ -25,7 +24,7 @@ struct SuiteScene {
   std::string camera;             // empty: the scene's first
   double exposure = 0;            // stops, for LDR-FLIP, PSNR and SSIM
   ToleranceLevels tolerance;      // in place of the suite's
-  std::vector<GridAxis> vary;     // beside the grid: each of these values for itself, on top of each of its techniques
+  std::vector<Variation> vary;    // beside the grid
 
   // The frame at which a sequence starts; frames before 0 show frame 0.
   int startFrame() const { return warmup ? frames.front() - *warmup : 0; }

@@ -42,7 +42,7 @@ TEST(Plan, IsTheProductOfScenesAndAxes) {
 TEST(Plan, Varied_TriesEachValueAloneOnEachOfTheGridsTechniques) {
   Suite suite = suiteOfTwo();
   suite.grid = {{"bounces", {"1", "2"}}};
-  suite.scenes[1].vary = {{"resolution", {"256", "64"}}, {"feedback", {"sky"}}};  // 256 is what it is anyway
+  suite.scenes[1].vary = {{{}, {{"resolution", {"256", "64"}}, {"feedback", {"sky"}}}}};  // 256 is what it is anyway
   const Plan plan = makePlan(suite);
   ASSERT_EQ(plan.sequences.size(), 2u + 2u + 2u + 2u);
   for (std::size_t i = 4; i < 8; ++i) {
@@ -52,6 +52,18 @@ TEST(Plan, Varied_TriesEachValueAloneOnEachOfTheGridsTechniques) {
     EXPECT_EQ(technique.resolution, i < 6 ? 64 : 256);
     EXPECT_EQ(technique.feedback, i < 6 ? Feedback::previousFrame : Feedback::sky);
   }
+}
+
+TEST(Plan, VariedOnOtherSettings_HasThoseAndEachValueOnTopOfThem) {
+  Suite suite = suiteOfTwo();
+  suite.grid.clear();
+  suite.scenes[1].vary = {{{{"bounces", "3"}}, {{"resolution", {"64"}}, {"bounces", {"1"}}}}};  // 1 is the grid's
+  const Plan plan = makePlan(suite);
+  ASSERT_EQ(plan.sequences.size(), 1u + 3u);
+  EXPECT_EQ(plan.sequences[2].technique.bounces, 3);
+  EXPECT_EQ(plan.sequences[2].technique.resolution, 256);
+  EXPECT_EQ(plan.sequences[3].technique.bounces, 3);
+  EXPECT_EQ(plan.sequences[3].technique.resolution, 64);
 }
 
 // The values that an axis names, without their parameters.
@@ -71,9 +83,10 @@ TEST(Survey, TriesEveryValueOfEveryAxis) {
   for (const Axis& axis : axisTable()) {
     std::set<std::string> tried = {parseSpec(axis.print(suite.technique)).name};
     for (const SuiteScene& scene : suite.scenes)
-      for (const auto& [name, values] : scene.vary)
-        if (name == axis.name)
-          for (const std::string& value : values) tried.insert(parseSpec(value).name);
+      for (const Variation& variation : scene.vary)
+        for (const auto& [name, values] : variation.values)
+          if (name == axis.name)
+            for (const std::string& value : values) tried.insert(parseSpec(value).name);
     EXPECT_GE(tried.size(), 2u) << axis.name;
     for (const std::string& value : namedValues(axis)) EXPECT_TRUE(tried.contains(value)) << axis.name << " " << value;
   }

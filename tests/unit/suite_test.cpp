@@ -115,6 +115,18 @@ TEST(Suite, EnvironmentFile_IsRelativeToTheSuiteLikeTheScene) {
   EXPECT_EQ(suite.scenes[0].name, "a.glb?environment=x.exr");
 }
 
+TEST(Suite, Variations_AreOneTableOrSeveralWithSettingsOfTheirOwn) {
+  const std::string scene = std::string(kHead) + kScene;
+  const Suite one = parse(scene + "[scene.vary]\nbounces = [2, 3]\nresolution = [64]\n");
+  EXPECT_THAT(one.scenes[0].vary, ElementsAre(Variation{{}, {{"resolution", {"64"}}, {"bounces", {"2", "3"}}}}));
+  const Suite two = parse(scene +
+                          "[[scene.vary]]\nbounces = [2]\n[[scene.vary]]\n"
+                          "on = { lookup = \"box-proxy\" }\nrefresh = [\"static\"]\n");
+  EXPECT_THAT(two.scenes[0].vary, ElementsAre(Variation{{}, {{"bounces", {"2"}}}},
+                                              Variation{{{"lookup", "box-proxy"}}, {{"refresh", {"static"}}}}));
+  EXPECT_NE(canonicalText(one), canonicalText(two));
+}
+
 struct BadSuite {
   const char* text;  // after the two lines of kHead
   const char* message;
