@@ -26,11 +26,6 @@ bool cullsBackFaces(const Material& material) {
 
 bool transmits(const Material& material) { return material.constants.kind.x == shading::kSurfaceGlass; }
 
-bool isClosed(const Mesh& mesh) {
-  const std::array meshes = {&mesh};
-  return boundaryOf(meshes) == Boundary::closed;
-}
-
 // Whatever the time: what screens show changes.
 bool mayHaveAreaLights(const Scene& scene) {
   return std::ranges::any_of(scene.materials, [](const Material& m) {
@@ -171,12 +166,21 @@ class SurfacePrograms {
 
 void SceneDraws::show(const Snapshot& snapshot, SceneResources& resources, const std::vector<int>& probeResolutions,
                       bool isNew) {
+  if (isNew) isClosed_.clear();
   if (isNew || !fit(snapshot, probeResolutions)) build(snapshot, resources, probeResolutions);
   for (const SurfaceDraw& draw : draws_) {
     const SnapshotInstance& instance = snapshot.instances[draw.instance];
     if (instance.mesh->isDeformed)
       resources.mesh(draw.instance, instance.mesh, meshNeeds(snapshot, instance, draw.shown.backFaces != 0));
   }
+}
+
+bool SceneDraws::isClosed(const Mesh& mesh) {
+  const std::array meshes = {&mesh};
+  if (mesh.isDeformed) return boundaryOf(meshes) == Boundary::closed;
+  const auto [found, isNew] = isClosed_.try_emplace(&mesh, false);
+  if (isNew) found->second = boundaryOf(meshes) == Boundary::closed;
+  return found->second;
 }
 
 bool SceneDraws::haveBackFaces() const {

@@ -2,6 +2,7 @@
 // instances under the same environment with probes of the same resolutions.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -61,6 +62,7 @@ class SceneDraws {
  private:
   bool fit(const Snapshot& snapshot, const std::vector<int>& probeResolutions) const;
   void build(const Snapshot& snapshot, SceneResources& resources, const std::vector<int>& probeResolutions);
+  bool isClosed(const Mesh& mesh);
   MeshNeeds meshNeeds(const Snapshot& snapshot, const SnapshotInstance& instance, bool hasBackFaces) const;
 
   RasterDevice::Impl& device_;
@@ -69,6 +71,7 @@ class SceneDraws {
   GLuint background_ = 0;
   std::size_t environment_ = 0;  // for which the draws were built
   std::vector<int> resolutions_;
+  std::map<const Mesh*, bool> isClosed_;  // of those of the scene's meshes that were asked for
 };
 
 }  // namespace pb
