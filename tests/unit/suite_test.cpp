@@ -25,7 +25,7 @@ TEST(Suite, WithEveryKey_IsReadWhole) {
 schema = 1
 name = "all"
 image = { size = [320, 200], samples = 9 }
-reference = { depth = 3, diffuse = "traced", diffuse_depth = 2, spp = 8, max_noise = 1e-5 }
+reference = { depth = 3, diffuse = "traced", diffuse_depth = 2, spp = 8, max_noise = 1e-5, matched = false }
 cost = { repetitions = 5 }
 technique = { feedback = "sky", bounces = 2 }
 
@@ -54,6 +54,7 @@ mse = { any = [ { absolute = 1.0 }, { all = [ { relative = 0.5 }, { absolute = 2
   EXPECT_EQ(suite.reference.depth, 3);
   EXPECT_EQ(suite.reference.spp, 8);
   EXPECT_EQ(suite.reference.maxNoise, 1e-5);
+  EXPECT_FALSE(suite.reference.matched);
   EXPECT_EQ(suite.cost.repetitions, 5);
   EXPECT_EQ(suite.technique.feedback, Feedback::sky);
   EXPECT_EQ(suite.technique.bounces, 2);
@@ -161,6 +162,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "suites/s.toml:3: 'diffuse_depth' belongs to diffuse = \"traced\""},
         BadSuite{"reference = { spp = 3 }\n",
                  "suites/s.toml:3: 'spp' wants an even number, one half for each of two images, got 3"},
+        BadSuite{"reference = { matched = 1 }\n", "suites/s.toml:3: 'matched' wants true or false"},
         BadSuite{"reference = { max_noise = nan }\n",
                  "suites/s.toml:3: 'max_noise' wants a number from 0 to 1, got nan"},
         BadSuite{"cost = { repetitions = 1e9 }\n",
@@ -243,7 +245,8 @@ TEST(SuiteText, DiffersWhenAnythingThatIsMeasuredDiffers) {
   for (const char* change :
        {"frames = 1\n", "camera = \"c\"\n", "exposure = 1\n", "environment = \"black\"\n", "warmup = 3\n",
         "[grid]\nbounces = [2]\n", "[image]\nsamples = 1\n", "[reference]\nspp = 2\n", "[reference]\ndepth = 1\n",
-        "[reference]\nmax_noise = 1e-3\n", "[cost]\nrepetitions = 1\n", "[technique]\nbounces = 2\n"})
+        "[reference]\nmax_noise = 1e-3\n", "[reference]\nmatched = false\n", "[cost]\nrepetitions = 1\n",
+        "[technique]\nbounces = 2\n"})
     EXPECT_NE(canonicalText(parse(base + change)), text) << change;
 }
 
