@@ -5,9 +5,13 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <vector>
 
+#include "bench/axes.h"
 #include "bench/commands/commands.h"
+#include "bench/recommend.h"
+#include "bench/report/page.h"
 #include "bench/run_directory.h"
 #include "scenes/error.h"
 
@@ -57,6 +61,18 @@ void requireSameMachine(const Provenance& a, const Provenance& b, const std::str
                     b.threads);
 }
 
+// Shards of one suite call their pictures alike where they show the same.
+void copyPictures(const std::string& run, const RunDirectory& directory) {
+  namespace fs = std::filesystem;
+  const fs::path pictures = fs::path(run) / directory.imagesFolder().filename();
+  if (!fs::exists(pictures)) return;
+  std::error_code failure;
+  fs::copy(pictures, directory.imagesFolder(), fs::copy_options::recursive | fs::copy_options::skip_existing, failure);
+  if (failure)
+    throwEnvironmentError("the pictures of '{}' can't be copied to '{}': {}", run, directory.imagesFolder().string(),
+                          failure.message());
+}
+
 int merge(const MergeOptions& options) {
   requireOwnFolder(options);
   Results merged = readResults(options.runs.front());
@@ -77,7 +93,10 @@ int merge(const MergeOptions& options) {
     merged.provenance.sceneHashes.insert(part.provenance.sceneHashes.begin(), part.provenance.sceneHashes.end());
   }
   RunDirectory directory(options.output, {merged.provenance.suiteName, "merged"}, false);
+  for (const std::string& run : options.runs) copyPictures(run, directory);
   directory.finish(merged, "");
+  const std::string folder = directory.folder().string();
+  writePage({{"", folder, merged}}, summaryLines(merged, {folder, describe(Technique())}), pageOfRun(folder));
   fmt::print(stderr, "merged {} cells of {} runs into {}\n", merged.cells.size(), options.runs.size(), options.output);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "bench/tables.h"
 
@@ -87,6 +88,30 @@ Json intervalToJson(const std::optional<Interval>& interval) {
   return interval ? Json::array({encodeNumber(interval->low), encodeNumber(interval->high)}) : Json();
 }
 
+// --- Which cells are the same
+
+using Values = std::map<std::string, std::set<std::string>>;  // axis -> values
+
+Values valuesOf(const Results& results) {
+  Values values;
+  for (const CellResult& cell : results.cells)
+    for (const auto& [axis, value] : cell.technique) values[axis].insert(value);
+  return values;
+}
+
+std::set<std::string> varyingAxes(const Results& before, const Results& after) {
+  std::set<std::string> varying = {kExternalAxis};  // which only some cells have
+  for (const Results* run : {&before, &after})
+    for (const auto& [axis, values] : valuesOf(*run))
+      if (values.size() > 1) varying.insert(axis);
+  return varying;
+}
+
+std::string keyOf(CellResult cell, const std::set<std::string>& varying) {
+  std::erase_if(cell.technique, [&](const auto& axis) { return !varying.contains(axis.first); });
+  return cell.key();
+}
+
 // --- The report
 
 // By which factor a value changed, as a distance from no change; what comes from or goes to 0 changed most.
@@ -148,7 +173,8 @@ Table changeTable(const Comparison& comparison, const Results& after, const Axis
 
 using Circumstances = std::map<std::string, std::string>;
 
-Circumstances circumstancesOf(const Provenance& p) {
+Circumstances circumstancesOf(const Results& results) {
+  const Provenance& p = results.provenance;
   Circumstances all = {{"probebench", fmt::format("{} ({})", p.toolVersion, p.gitHash)},
                        {"suite", fmt::format("{} ({})", p.suiteName, p.suiteHash)},
                        {"CPU", fmt::format("{}, {} threads", p.cpu, p.threads)},
@@ -156,10 +182,12 @@ Circumstances circumstancesOf(const Provenance& p) {
   for (const auto& [name, value] : p.settings) all[name] = value;
   for (const auto& [scene, hash] : p.sceneHashes) all["scene " + scene] = hash;
   for (const auto& [name, version] : p.libraries) all[name] = version;
+  for (const auto& [axis, values] : valuesOf(results))
+    if (values.size() == 1) all["axis " + axis] = *values.begin();
   return all;
 }
 
-std::string circumstancesText(const Provenance& before, const Provenance& after) {
+std::string circumstancesText(const Results& before, const Results& after) {
   const Circumstances a = circumstancesOf(before), b = circumstancesOf(after);
   Circumstances names = a;
   names.insert(b.begin(), b.end());
@@ -177,11 +205,12 @@ std::string circumstancesText(const Provenance& before, const Provenance& after)
 }  // namespace
 
 Comparison compareRuns(const Results& before, const Results& after) {
+  const std::set<std::string> varying = varyingAxes(before, after);
   std::map<std::string, std::size_t> earlier;
-  for (std::size_t i = 0; i < before.cells.size(); ++i) earlier[before.cells[i].key()] = i;
+  for (std::size_t i = 0; i < before.cells.size(); ++i) earlier[keyOf(before.cells[i], varying)] = i;
   Comparison comparison;
   for (std::size_t i = 0; i < after.cells.size(); ++i) {
-    const auto found = earlier.find(after.cells[i].key());
+    const auto found = earlier.find(keyOf(after.cells[i], varying));
     if (found == earlier.end()) {
       comparison.onlyAfter.push_back(i);
       continue;
@@ -209,7 +238,7 @@ std::string makeComparisonReport(const Results& before, const Results& after, co
     const Table changes = changeTable(comparison, after, defaults);
     if (!changes.rows.empty()) text += "What changed most:\n\n" + toMarkdown(changes) + '\n';
   }
-  return text + circumstancesText(before.provenance, after.provenance);
+  return text + circumstancesText(before, after);
 }
 
 std::string comparisonToCsv(const Results& before, const Results& after, const AxisValues& defaults) {

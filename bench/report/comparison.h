@@ -27,8 +27,10 @@ struct ComparedCell {
   std::vector<ComparedValue> values;  // those that both have; of the mask where there is one
 };
 
+// Cells are the same that have the scene, the camera, the frame and all axes in common that vary in one of the runs. So
+// a run of an older program, which knew fewer axes, can be compared, and one whose base technique was changed.
 struct Comparison {
-  std::vector<ComparedCell> cells;                 // of the same key, in the order of the later run
+  std::vector<ComparedCell> cells;                 // of both runs, in the order of the later one
   std::vector<std::size_t> onlyBefore, onlyAfter;  // indices into the runs' cells
 };
 

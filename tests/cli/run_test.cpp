@@ -274,6 +274,9 @@ TEST(Run, ShardsMerged_AreTheWhole) {
   const ProgramResult merged = merge({"a", "b", "c"}, "merged");
   EXPECT_EQ(merged.exitCode, 0) << merged.err;
   EXPECT_EQ(workplace.cells("merged"), workplace.cells("whole"));
+  EXPECT_TRUE(fs::exists(workplace.path("merged/report.html")));
+  for (const CellResult& cell : readResults(workplace.path("merged")).cells)
+    EXPECT_TRUE(fs::exists(workplace.path("merged/" + cell.pictures.reference))) << cell.pictures.reference;
 
   const ProgramResult twice = merge({"a", "a"}, "twice");
   EXPECT_EQ(twice.exitCode, 2);
@@ -429,6 +432,22 @@ TEST(Render, OfBothRenderers_WritesPicturesThatAgreeOutsideOfMirrors) {
   const std::vector<NamedPlane> ids = readExrChannels(workplace.path("raster-ids.exr"));
   ASSERT_EQ(ids.size(), 3u);
   EXPECT_EQ(ids[0].plane.width(), 128);  // 2 x 2 samples a pixel
+}
+
+// A preset sets every axis: what is set beside it counts, wherever it stands.
+TEST(Render, SettingsBesideAPreset_CountInAnyOrder) {
+  const Workplace workplace;
+  const auto render = [&](const std::string& name, const std::vector<std::string>& settings) {
+    std::vector<std::string> arguments = {"render", "builtin:mirrors",    "--with", "raster",
+                                          "-o",     workplace.path(name), "--size", "32x18"};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    const ProgramResult result = runProgram(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return rgbOf(readImage(workplace.path(name)).pixels);
+  };
+  const Image before = render("before.exr", {"resolution=8", "preset=godot-once"});
+  EXPECT_EQ(before, render("after.exr", {"preset=godot-once", "resolution=8"}));
+  EXPECT_NE(before, render("alone.exr", {"preset=godot-once"}));
 }
 
 TEST(Render, IntoAFolderThatIsNotThere_IsAnEnvironmentError) {

@@ -72,6 +72,21 @@ TEST(Comparison, CellsOfOneRunOnly_AreCounted) {
   EXPECT_EQ(comparison.onlyAfter, (std::vector<std::size_t>{1}));
 }
 
+TEST(Comparison, AxesThatStandElsewhereOrAreNew_AreCircumstances) {
+  Results before = makeRun({makeCell("64", 1), makeCell("128", 1)}),
+          after = makeRun({makeCell("64", 2), makeCell("128", 3)});
+  for (CellResult& cell : before.cells) cell.technique.emplace_back("filter", "none");
+  for (CellResult& cell : after.cells) {
+    cell.technique.emplace_back("filter", "ggx-prefiltered");
+    cell.technique.emplace_back("storage", "cube");
+  }
+  EXPECT_EQ(compareRuns(before, after).cells.size(), 2u);
+  EXPECT_EQ(valueOf(compareRuns(before, after).cells.at(1), "relmse").after, 3);
+  const std::string text = makeComparisonReport(before, after, {});
+  EXPECT_THAT(text, testing::ContainsRegex("axis filter +\\| none +\\| ggx-prefiltered"));
+  EXPECT_THAT(text, testing::ContainsRegex("axis storage +\\| - +\\| cube"));
+}
+
 TEST(Comparison, Report_NamesWhatChangedMostAndWhatDiffersAround) {
   Results before = makeRun({makeCell("64", 1.0), makeCell("128", 2.0)});
   Results after = makeRun({makeCell("64", 1.1), makeCell("128", 4.0)});

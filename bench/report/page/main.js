@@ -17,6 +17,7 @@ class Page {
     this.model = runs.at(-1).model;
     this.pictures = runs.at(-1).pictures;
     this.before = runs.length > 1 ? runs[0] : null;
+    this.earlierIndex = new Map(meta.comparison?.cells.map(({before, after}) => [after, before]));
     this.settings = {view: this.model.views[0], metric: "flip_hdr", region: "mask", truth: "converged", cost: "ratio"};
     this.viewer = new Viewer({picturesOf: () => this.pictures, alternatives: (cell) => this.alternatives(cell), onMove: (cell) => this.open(cell), onMode: () => this.cell && replacePlace(this.cell, {mode: this.viewer.mode})});
     this.context = {model: this.model, view: () => this.settings.view, question: () => this.questionFor(this.settings.view), cost: () => costNamed(this.settings.cost), openIndex: (index) => this.openIndex(index)};
@@ -30,7 +31,7 @@ class Page {
   // What a cell's picture may be held against beside the reference.
   alternatives(cell) {
     const others = [];
-    const earlier = this.before && findCell(this.before.model, cell.key);
+    const earlier = this.before?.model.cells[this.earlierIndex.get(cell.index)];
     if (earlier) others.push({value: "before", title: "the run before", path: earlier.pictures?.rendered, pictures: this.before.pictures});
     for (const sequence of cell.sequence.view.sequences) {
       const other = sequence.cells.find((c) => c.frame === cell.frame);
