@@ -24,15 +24,13 @@ struct LookupRecord {
 };
 
 #ifdef MIRROR_RECORDS
-#ifndef FRESNEL_LAW
-#define FRESNEL_LAW vec4(kFresnelExact, 0.0f, 0.0f, 0.0f)
-#endif
+#include "raster/shaders/fresnel_law.glsl"
 
 LookupRecord recordAt(int record) {
   vec4 directionAndCosine = imageLoad(records, record);
   Surface s = makeSurface(material, vec3(0.0f), vec3(0.0f), vec4(1.0f), vec4(1.0f), vec4(1.0f), vec4(1.0f), vec4(1.0f));
   s.kind = kSurfaceMirror;
-  vec3 weight = specularReflectance(s, directionAndCosine.w, FRESNEL_LAW);
+  vec3 weight = specularReflectance(s, directionAndCosine.w, fresnelLawOf(s));
   return LookupRecord(vec3(directionAndCosine), 0.0f, weight, vec3(0.0f));
 }
 #else

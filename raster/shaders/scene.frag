@@ -22,11 +22,10 @@ layout(std430, binding = kLightBlock) readonly buffer LightBlock { Light lights[
 layout(std430, binding = kAreaLightBlock) readonly buffer AreaLightBlock { AreaLight areaLights[]; };
 layout(binding = kDfgUnit) uniform sampler2D dfgTable;
 
-#ifndef FRESNEL_LAW
-#define FRESNEL_LAW vec4(kFresnelExact, 0.0f, 0.0f, 0.0f)
+#include "raster/shaders/fresnel_law.glsl"
+#ifndef GEOMETRY_TERM
 #define GEOMETRY_TERM kGeometrySmithCorrelated
 #endif
-const vec4 kFresnelLaw = FRESNEL_LAW;
 const float kGeometry = GEOMETRY_TERM;
 
 #ifdef ALPHA_BLEND
@@ -72,7 +71,7 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
     irradiance += max(NoL, 0.0f) * fromLight;
 #ifdef ROUGH_LOBE
     highlights += abs(NoL) * fromLight *
-                  specularBsdf(s, toViewer, toLight, gl_FrontFacing ? s.ior : 1.0f / s.ior, kFresnelLaw, kGeometry);
+                  specularBsdf(s, toViewer, toLight, gl_FrontFacing ? s.ior : 1.0f / s.ior, fresnelLawOf(s), kGeometry);
 #endif
   }
 #ifdef AREA_LIGHTS

@@ -106,6 +106,19 @@ TEST(InwardDistance, OfAnOpenMeshEndsAtItsBounds) {
 using RasterRefraction = RasterTest;
 INSTANTIATE_TEST_SUITE_P(Gl, RasterRefraction, kBackends, nameOfBackend);
 
+// The technique reflects nothing where light is refracted as well.
+TEST_P(RasterRefraction, RatioInPlaceOfFresnelsLaw_LeavesMetalsAsTheyAre) {
+  for (const Material& metal : {makeMirrorMaterial("mirror", vec3(0.9f, 0.5f, 0.1f)),
+                                makeMetalMaterial("brushed", vec3(0.2f, 0.9f, 1.1f), vec3(3.9f, 2.4f, 2.3f), 0.4f)}) {
+    const auto snapshot = snapshotOf(makeBall(kWhite, metal));
+    Technique technique = withoutReflection(Refraction::oneInterface);
+    const Image byRatio = render(*snapshot, technique);
+    technique.fresnel = parseSpec("exact");
+    EXPECT_EQ(byRatio, render(*snapshot, technique));
+    EXPECT_GT(centreOf(byRatio).x, 0.5f);
+  }
+}
+
 TEST_P(RasterRefraction, AnIndexOfOneShowsTheBackground) {
   const Image background = render(*snapshotOf(makeSkyScene()));
   Scene scene = makeSkyScene();
