@@ -96,13 +96,12 @@ std::vector<Preset> makePresets() {
       {"best",
        {{"resolution", "512"},
         {"bounces", "3"},
-        {"iterations", "incremental"},
         {"lookup", "distance-impostor"},
         {"refraction", "two-interface"},
         {"coats", "blended-probes"},
         {"without_probe", "nearest-probe"},
         {"self_reflection", "split-parts"}},
-       "what the survey finds to have the least error, at any cost",
+       "the refinements that have the least error on their scenes in the survey, together, at any cost",
        "docs/source-documents.md"},
   };
 }
