@@ -27,9 +27,12 @@ Technique withMapsAsStored(Technique technique, const Technique& stored) {
   return technique;
 }
 
-// All that is captured is of this very moment.
+// All that is captured is of this very moment. In a world that stands still each render adds one bounce iteration to
+// those before, so that any number of them can be had.
 Technique withFreshCaptures(Technique technique) {
   technique.refresh = Spec{"every-frame", {}};
+  technique.bounces = 1;
+  technique.feedback = Feedback::previousFrame;
   technique.hysteresis = 0.0f;
   return technique;
 }

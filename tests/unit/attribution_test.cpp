@@ -3,21 +3,23 @@
 
 #include <gmock/gmock.h>
 
+#include "bench/attribution_cells.h"
 #include "bench/attribution_runner.h"
 #include "bench/attribution_steps.h"
 #include "bench/axes.h"
+#include "tests/error_message.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/raster_fixture.h"
 
 namespace pb {
 namespace {
 
-using testing::Each;
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::SizeIs;
 
 // --- The chain of techniques
-// ------------------------------------------------------------------------------------------
 
 std::vector<std::string> axesThatDiffer(const Technique& a, const Technique& b) {
   std::vector<std::string> axes;
@@ -46,7 +48,7 @@ TEST(AttributionSteps, EachChangesOneApproximation) {
   EXPECT_THAT(axesThatDiffer(steps[0].technique, steps[1].technique), ElementsAre("resolution"));
   EXPECT_EQ(steps[0].technique.resolution, 512);
   EXPECT_THAT(axesThatDiffer(steps[2].technique, steps[3].technique), ElementsAre("filter", "format"));
-  EXPECT_THAT(axesThatDiffer(steps[3].technique, technique), ElementsAre("refresh", "hysteresis"));
+  EXPECT_THAT(axesThatDiffer(steps[3].technique, technique), ElementsAre("refresh", "bounces", "hysteresis"));
   EXPECT_TRUE(steps[1].isTraced && !steps[2].isTraced);
 }
 
@@ -56,8 +58,51 @@ TEST(AttributionSteps, MapsOfMoreTexelsThanPerfectOnesStayAsTheyAre) {
   EXPECT_EQ(rasterSteps(technique, 512)[0].technique.resolution, 1024);
 }
 
+// --- Which cells
+
+Suite suiteWith(const std::string& attribution) {
+  return parseSuite(R"(
+schema = 1
+name = "test"
+technique = { resolution = 64, bounces = 2 }
+scene = [{ use = "builtin:teapot", frames = "3..4" }, { use = "builtin:glass" }]
+grid = { resolution = [32, 64, 128], bounces = [1, 3] }
+)" + attribution,
+                    "test.toml", "");
+}
+
+std::vector<std::string> attributedKeys(const Suite& suite) {
+  const AttributedCells chosen(suite);
+  std::vector<std::string> keys;
+  for (const PlannedSequence& sequence : makePlan(suite).sequences)
+    for (const int frame : sequence.frames)
+      if (const CellResult cell = makeCell(suite, sequence, frame); chosen.includes(sequence, cell))
+        keys.push_back(shortKey(cell.key(), describe(Technique())));
+  return keys;
+}
+
+TEST(AttributedCells, AreThoseNearestToTheBaseTechniqueAtTheLastFrame) {
+  const Suite suite = suiteWith("attribution = {}");
+  EXPECT_THAT(attributedKeys(suite), ElementsAre(AllOf(HasSubstr("teapot"), HasSubstr("frame=4 resolution=64")),
+                                                 AllOf(HasSubstr("glass"), HasSubstr("frame=0 resolution=64"))));
+  EXPECT_EQ(countAttributedCells(suite, makePlan(suite)), 2u);
+  EXPECT_EQ(countAttributedCells(suiteWith(""), makePlan(suite)), 0u);
+}
+
+TEST(AttributedCells, AreChosenByTheirKeys) {
+  EXPECT_THAT(attributedKeys(suiteWith("attribution = { cells = \"teapot.*resolution=32\", frames = \"all\" }")),
+              SizeIs(4));
+}
+
+TEST(AttributedCells, OfABadTableAreRefusedWithItsPlace) {
+  const auto message = [](const std::string& table) { return messageOf([&] { suiteWith(table); }); };
+  EXPECT_THAT(message("attribution = { cells = \"(\" }"), HasSubstr("test.toml:7: 'cells' wants a regular expression"));
+  EXPECT_THAT(message("attribution = { frames = \"first\" }"), HasSubstr("wants last or all, got 'first'"));
+  EXPECT_THAT(message("attribution = { spp = 3 }"), HasSubstr("'spp' wants an even number, got 3"));
+  EXPECT_THAT(message("attribution = { cell = \".\" }"), HasSubstr("cells"));
+}
+
 // --- The model
-// --------------------------------------------------------------------------------------------------------
 
 TEST(Attribution, ComesBackFromJson) {
   const Attribution attribution{"scene",
@@ -80,7 +125,6 @@ TEST(Attribution, FinishedOnesOutliveAKill) {
 }
 
 // --- Scenes with a known answer
-// ---------------------------------------------------------------------------------------
 
 constexpr char kSuite[] = R"(
 schema = 1
@@ -193,6 +237,25 @@ TEST_P(AttributionOfScenes, StaticMapsOfWhatMovesErrByStalenessToo) {
       attributionOf({.technique = "resolution = 256, refresh = \"static\"", .scene = "builtin:teapot", .frame = 12}));
   EXPECT_GT(shares.at("stale"), 0.05);
   for (const char* step : {"resolution", "capture", "filtered/format"}) EXPECT_LT(shares.at(step), 0.01) << step;
+}
+
+// Faces that are due see the sky, but the others' maps are of many frames: fresh maps must be as deep.
+TEST_P(AttributionOfScenes, BouncesOfSeveralFramesAreNoErrorOfCaptures) {
+  const auto shares = sharesOf(attributionOf(
+      {.technique = "resolution = 64, refresh = \"faces?k=1\", feedback = \"sky\", lookup = \"box-proxy\"",
+       .scene = "builtin:hall-of-mirrors",
+       .frame = 8}));
+  EXPECT_LT(std::abs(shares.at("capture")), 0.1);
+}
+
+// After as many iterations as the technique has, fresh maps of what stands still are its own.
+TEST_P(AttributionOfScenes, NothingIsStaleThatStandsStill) {
+  for (const char* technique : {"resolution = 32, bounces = 3, feedback = \"sky\"",
+                                "resolution = 32, bounces = 2, bounce_order = \"simultaneous\""}) {
+    const auto shares =
+        sharesOf(attributionOf({.technique = technique, .scene = "builtin:hall-of-mirrors", .frame = 1}));
+    EXPECT_NEAR(shares.at("stale"), 0.0, 1e-9) << technique;
+  }
 }
 
 TEST_P(AttributionOfScenes, ErrorsOfObjectsAddUpToThoseOfTheImage) {
