@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +35,18 @@ double totalMs(const PassTimes& passes) {
                          passes.shadowMs + passes.prefilterMs + passes.finalMs);
 }
 
+// Of all threads of the process. Time in which other programs had the processor is not in it.
+double processorMs() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+}
+
+// Milliseconds of frames. `processor`: what the threads of a software renderer worked; on a GPU the same as `wall`.
+struct FrameTimes {
+  std::vector<double> wall, processor;
+};
+
 // One technique on one scene over all repetitions.
 class Measurement {
  public:
@@ -47,20 +60,20 @@ class Measurement {
   }
 
   void measure(benchmark::State& state) {
-    std::vector<double> frames;
+    FrameTimes frames, plainFrames;
     std::size_t next = 1;
-    std::vector<double> plainFrames;
     measurePlain(plainFrames);
     for (auto iteration : state) {
-      frames.push_back(renderMs(sequence_, *snapshots_[next++]));
-      state.SetIterationTime(frames.back() * 1e-3);
+      render(sequence_, *snapshots_[next++], frames);
+      state.SetIterationTime(frames.wall.back() * 1e-3);
     }
     measurePlain(plainFrames);
-    const double plainMs = median(plainFrames);
-    frameMs_.push_back(meanOf(frames));
-    allFramesMs_.insert(allFramesMs_.end(), frames.begin(), frames.end());
+    const double plainMs = median(plainFrames.wall);
+    frameMs_.push_back(meanOf(frames.wall));
+    allFramesMs_.insert(allFramesMs_.end(), frames.wall.begin(), frames.wall.end());
     plainMs_.push_back(plainMs);
     ratios_.push_back(frameMs_.back() / plainMs);
+    processorRatios_.push_back(meanOf(frames.processor) / median(plainFrames.processor));
     state.counters["plain_ms"] = plainMs;
     state.counters["ratio"] = ratios_.back();
   }
@@ -79,7 +92,7 @@ class Measurement {
     cost.ratio = ratio.median;
     cost.ratioLow = ratio.low;
     cost.ratioHigh = ratio.high;
-    cost.ratios = ratios_;
+    cost.ratios = processorRatios_;
     cost.peaks = peaksOf(allFramesMs_);
     cost.rendersPerFrame = model.perFrame;
     cost.rendersFormula = model.formula;
@@ -104,23 +117,29 @@ class Measurement {
       facesPerFrame_ +=
           static_cast<double>(sequence_.renderFrame(*snapshots_[i]).counters.facesCaptured) / frameCount();
     sequence_.finish();
-    std::vector<double> notCounted;
+    FrameTimes notCounted;
     measurePlain(notCounted);
   }
 
   // Software renderers draw while the calls return: wall time up to the idle device. On a GPU timer queries leave the
   // waiting for submission out.
-  double renderMs(RasterSequence& sequence, const Snapshot& snapshot) const {
-    if (!software_) return totalMs(sequence.renderFrameTimed(snapshot));
+  void render(RasterSequence& sequence, const Snapshot& snapshot, FrameTimes& times) const {
+    if (!software_) {
+      times.wall.push_back(totalMs(sequence.renderFrameTimed(snapshot)));
+      times.processor.push_back(times.wall.back());
+      return;
+    }
+    const double processorStart = processorMs();
     const auto start = std::chrono::steady_clock::now();
     sequence.renderFrame(snapshot);
     sequence.finish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    times.wall.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    times.processor.push_back(processorMs() - processorStart);
   }
 
-  void measurePlain(std::vector<double>& frames) {
+  void measurePlain(FrameTimes& frames) {
     const std::size_t block = snapshots_.size() - 1;
-    for (std::size_t i = 0; i < kPlainFrames; ++i) frames.push_back(renderMs(plain_, *snapshots_[1 + i % block]));
+    for (std::size_t i = 0; i < kPlainFrames; ++i) render(plain_, *snapshots_[1 + i % block], frames);
   }
 
   // Means over a block, because policies spread their work over it; medians over blocks.
@@ -159,8 +178,8 @@ class Measurement {
   const Snapshots& snapshots_;
   RasterSequence sequence_, plain_;
   double facesPerFrame_ = 0;
-  std::vector<double> frameMs_, plainMs_, ratios_;  // one a repetition
-  std::vector<double> allFramesMs_;                 // of all repetitions
+  std::vector<double> frameMs_, plainMs_, ratios_, processorRatios_;  // one a repetition
+  std::vector<double> allFramesMs_;                                   // of all repetitions
 };
 
 // Google Benchmark takes its flags' defaults from the environment, where users keep them for other programs; each of

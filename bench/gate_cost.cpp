@@ -20,31 +20,48 @@ using Costs = std::map<std::string, const CostResult*>;  // by sequence
 RatioSample sampleOf(const BaselineCost& cost) { return {cost.ratio, cost.ratioLow, cost.ratioHigh, cost.ratios}; }
 RatioSample sampleOf(const CostResult& cost) { return {cost.ratio, cost.ratioLow, cost.ratioHigh, cost.ratios}; }
 
-// As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline.
-double limitOf(double before, const CostResult& after) {
-  const double relative = after.ratio > before ? kCostRelativeFloor : kCostRelativeFloor / (1 + kCostRelativeFloor);
-  const double absolute = after.plainMs > 0 ? kCostAbsoluteFloorMs / after.plainMs : kInfinity;
-  return std::max(relative * before, absolute);
-}
-
-bool isAboveFloors(const BaselineCost& before, const CostResult& after) {
-  return std::abs(after.ratio - before.ratio) > limitOf(before.ratio, after);
-}
-
-// What was measured on both sides.
+// What was measured of a sequence on both sides.
 struct Pair {
   std::string sequence;
   const BaselineCost* before;
   const CostResult* after;
 };
 
+struct Ratios {
+  double before, after;
+};
+
+Ratios ratiosOf(const Pair& pair) {
+  const RatioSample before = sampleOf(*pair.before), after = sampleOf(*pair.after);
+  const bool byRepetitions = haveRepetitions(before, after);
+  return {typicalRatio(before, byRepetitions), typicalRatio(after, byRepetitions)};
+}
+
+// As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline.
+double limitOf(const Ratios& ratios, double plainMs) {
+  const double relative =
+      ratios.after > ratios.before ? kCostRelativeFloor : kCostRelativeFloor / (1 + kCostRelativeFloor);
+  const double absolute = plainMs > 0 ? kCostAbsoluteFloorMs / plainMs : kInfinity;
+  return std::max(relative * ratios.before, absolute);
+}
+
+bool isAboveFloors(const Pair& pair) {
+  const Ratios ratios = ratiosOf(pair);
+  return std::abs(ratios.after - ratios.before) > limitOf(ratios, pair.after->plainMs);
+}
+
+bool isSlower(const Pair& pair) {
+  const Ratios ratios = ratiosOf(pair);
+  return ratios.after > ratios.before;
+}
+
 // Those above the floors that are significant among all.
 std::vector<Pair> changedAmong(const std::vector<Pair>& pairs) {
   std::vector<double> probabilities;
-  for (const auto& [sequence, before, after] : pairs)
+  for (const Pair& pair : pairs)
     // Below the floors nothing is a finding; 1 never makes another comparison more significant.
-    probabilities.push_back(isAboveFloors(*before, *after) ? equalCostProbability(sampleOf(*before), sampleOf(*after))
-                                                           : 1.0);
+    probabilities.push_back(isAboveFloors(pair) ? equalCostProbability(sampleOf(*pair.before), sampleOf(*pair.after))
+                                                : 1.0);
   const std::vector<double> adjusted = holmAdjusted(probabilities);
   std::vector<Pair> changed;
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -128,26 +145,28 @@ class CostComparison {
   // Those that changed in the second measurement too, the same way.
   std::set<std::string> findConfirmed(const std::vector<Pair>& changed) const {
     std::vector<Pair> again;
-    for (const auto& [sequence, before, after] : changed)
-      if (const auto second = rerun_.find(sequence);
-          second != rerun_.end() && (second->second->ratio > before->ratio) == (after->ratio > before->ratio))
-        again.push_back({sequence, before, second->second});
+    for (const Pair& pair : changed) {
+      const auto second = rerun_.find(pair.sequence);
+      if (second == rerun_.end()) continue;
+      const Pair repeated{pair.sequence, pair.before, second->second};
+      if (isSlower(repeated) == isSlower(pair)) again.push_back(repeated);
+    }
     std::set<std::string> confirmed;
     for (const Pair& pair : changedAmong(again)) confirmed.insert(pair.sequence);
     return confirmed;
   }
 
   void report(const Pair& pair, bool confirmed) {
-    const auto& [sequence, before, after] = pair;
-    if (const auto second = rerun_.find(sequence); !confirmed && second != rerun_.end()) {
-      found_.notes.push_back(
-          fmt::format("A second measurement did not confirm the cost ratio of {}: {:.3g}, then {:.3g}, "
-                      "in the baseline {:.3g}.",
-                      sequence, after->ratio, second->second->ratio, before->ratio));
+    const Ratios ratios = ratiosOf(pair);
+    if (const auto second = rerun_.find(pair.sequence); !confirmed && second != rerun_.end()) {
+      found_.notes.push_back(fmt::format(
+          "A second measurement did not confirm the cost ratio of {}: {:.3g}, then {:.3g}, "
+          "in the baseline {:.3g}.",
+          pair.sequence, ratios.after, ratiosOf({pair.sequence, pair.before, second->second}).after, ratios.before));
       return;
     }
-    const double limit = limitOf(before->ratio, *after), delta = std::abs(after->ratio - before->ratio);
-    found_.findings.push_back({FindingKind::cost, sequence, "cost ratio", before->ratio, after->ratio, limit,
+    const double limit = limitOf(ratios, pair.after->plainMs), delta = std::abs(ratios.after - ratios.before);
+    found_.findings.push_back({FindingKind::cost, pair.sequence, "cost ratio", ratios.before, ratios.after, limit,
                                limit > 0 ? delta / limit : kInfinity, confirmed ? Level::fail : Level::unconfirmed});
   }
 

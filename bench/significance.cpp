@@ -86,8 +86,20 @@ double fromIntervals(const RatioSample& before, const RatioSample& after) {
 
 }  // namespace
 
+bool haveRepetitions(const RatioSample& a, const RatioSample& b) {
+  return std::min(a.ratios.size(), b.ratios.size()) >= kFewestRepetitions;
+}
+
+double typicalRatio(const RatioSample& sample, bool byRepetitions) {
+  if (!byRepetitions) return sample.median;
+  std::vector<double> ordered = sample.ratios;
+  std::ranges::sort(ordered);
+  const std::size_t n = ordered.size();
+  return n % 2 == 1 ? ordered[n / 2] : 0.5 * (ordered[n / 2 - 1] + ordered[n / 2]);
+}
+
 double equalCostProbability(const RatioSample& before, const RatioSample& after) {
-  if (std::min(before.ratios.size(), after.ratios.size()) < kFewestRepetitions) return fromIntervals(before, after);
+  if (!haveRepetitions(before, after)) return fromIntervals(before, after);
   return fromRepetitions(logarithms(before.ratios), logarithms(after.ratios));
 }
 

@@ -18,8 +18,10 @@ TEST(Tolerance, OfATree_IsItsLargestOrSmallestChild) {
 TEST(TolerancePresets, GateKnownMetricsAndWidenInTheirOrder) {
   double narrower = 0;
   for (const TolerancePreset& preset : tolerancePresets()) {
-    for (const auto& [metric, tolerance] : preset.levels.fail)
-      if (metric != kIntegrityTolerance) EXPECT_NO_THROW(metricValue({}, metric)) << metric;
+    for (const auto& [metric, tolerance] : preset.levels.fail) {
+      if (metric == kIntegrityTolerance) continue;
+      EXPECT_NO_THROW(metricValue({}, metric)) << metric;
+    }
     const double limit = largestAllowedDelta(*findTolerance(preset.levels.fail, "flip_hdr"), 0.1);
     EXPECT_GT(limit, narrower) << preset.name;
     narrower = limit;
