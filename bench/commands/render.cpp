@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -46,13 +47,17 @@ struct Rendered {
   Grid<SampleId> ids;  // empty unless asked for
 };
 
+// In the order of the axis table, as in `run`: a preset, which sets every axis, before the others.
 Technique parseTechnique(const std::vector<std::string>& settings) {
-  Technique technique;
+  std::map<std::string, std::string> values;
   for (const std::string& text : settings) {
-    const auto [axis, values] = parseAxisValues(text);
-    if (values.size() != 1) throwInputError("--set of render takes one value, got '{}'", text);
-    setAxis(technique, axis, values.front());
+    const auto [axis, given] = parseAxisValues(text);
+    if (given.size() != 1) throwInputError("--set of render takes one value, got '{}'", text);
+    values.insert_or_assign(axis, given.front());
   }
+  Technique technique;
+  for (const Axis& axis : axisTable())
+    if (const auto value = values.find(axis.name); value != values.end()) setAxis(technique, axis.name, value->second);
   return technique;
 }
 
