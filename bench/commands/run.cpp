@@ -114,6 +114,8 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   Suite suite = effectiveSuite(options);
   const Scenes scenes = loadScenes(suite);
   const Plan plan = makePlan(suite, filterOf(options));
+  RasterDevice device(globals.backend());
+  checkPlan(suite, scenes, plan, device);
   const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
   const PlanWork work = computeWork(suite, scenes, plan, store);
   Rates rates(store.folder(), machineOf(globals));
@@ -126,8 +128,6 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   printWarnings(scenes);
   requireExternals(suite, scenes, plan);
 
-  RasterDevice device(globals.backend());
-  checkPlan(suite, scenes, plan, device);
   Progress progress;
   const std::string control = passControl(device, progress);
   const std::string folder = options.output.empty() ? "out/" + suite.name : options.output;
