@@ -1,5 +1,5 @@
-// `mirrors?count=N&probes=P`: the ring of mirror balls of the peer benchmark three-cubecamera (its scene-mirrorsN.glb),
-// so that costs compare.
+// `mirrors?count=N&probes=P&varnished=V`: the ring of mirror balls of the peer benchmark three-cubecamera (its
+// scene-mirrorsN.glb), so that costs compare.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -51,6 +51,16 @@ Texture makeChecker() {
   return makeTexture("checker", std::move(texels));
 }
 
+// Matt, or under a coat of varnish of index 1.5.
+Material makePaint(const std::string& name, glm::vec3 albedo, bool isVarnished) {
+  Material material = makeDiffuseMaterial(name, albedo);
+  if (!isVarnished) return material;
+  material.constants.kind.x = shading::kSurfaceGlossy;
+  material.constants.factors.y = 0.2f;  // roughness
+  material.constants.specular.w = 1.0f;
+  return material;
+}
+
 void addGround(Scene& scene) {
   Material material = makeTexturedMaterial("Ground", addTexture(scene, makeChecker()), {1.0f, 1.0f});
   material.constants.baseColorSlot.sampler_ = {shading::kWrapClamp, shading::kWrapClamp, shading::kFilterNearest,
@@ -79,6 +89,7 @@ shading::Sky makeSky() {
 Scene makeMirrorsScene(SpecReader& parameters) {
   const int count = parameters.integer("count", 1, 64, 5);
   const int probes = parameters.integer("probes", 0, 64, 64);
+  const bool isVarnished = parameters.integer("varnished", 0, 1, 0) == 1;
   Scene scene;
   addGround(scene);
   const auto cube = finishMesh(makeBoxMesh(glm::vec3(kCubeEdge)));
@@ -94,7 +105,7 @@ Scene makeMirrorsScene(SpecReader& parameters) {
     const std::string name = "Sphere_" + std::to_string(i);
     Node node;
     node.translation = kBalls[i].centre;
-    addInstance(scene, name, ball, addMaterial(scene, makeDiffuseMaterial(name, kBalls[i].albedo)), node);
+    addInstance(scene, name, ball, addMaterial(scene, makePaint(name, kBalls[i].albedo, isVarnished)), node);
   }
   const auto mirror = finishMesh(makeSphereMesh(kMirrorRadius, kSegments, kRings));
   const int mirrorMaterial = addMaterial(scene, makeMirrorMaterial("Mirror"));
