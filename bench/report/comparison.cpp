@@ -149,7 +149,8 @@ Table countTable(const Comparison& comparison) {
   return table;
 }
 
-// The largest changes that are more than noise, as far as that is known.
+// The largest changes that are more than noise, as far as that is known. Costs as multiples of a plain frame:
+// milliseconds tell how busy the machine was as well.
 Table changeTable(const Comparison& comparison, const Results& after, const AxisValues& defaults) {
   struct Row {
     const ComparedCell* cell;
@@ -158,7 +159,7 @@ Table changeTable(const Comparison& comparison, const Results& after, const Axis
   std::vector<Row> rows;
   for (const ComparedCell& cell : comparison.cells)
     for (const ComparedValue& value : cell.values)
-      if (value.change != Change::equal) rows.push_back({&cell, &value});
+      if (value.change != Change::equal && value.name != "frame_ms") rows.push_back({&cell, &value});
   std::ranges::stable_sort(rows, std::greater(), [](const Row& row) { return sizeOf(*row.value); });
   if (rows.size() > kShownChanges) rows.resize(kShownChanges);
   Table table{

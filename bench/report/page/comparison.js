@@ -20,13 +20,13 @@ const withInterval = (value, interval) => significant(value) + (interval ? ` (${
 function columnsOf() {
   const text = (key, title, of) => ({key, title, left: true, text: of});
   return [
+    {...text("change", "verdict", (row) => row.change), cell: (row) => element("span", {class: `change ${row.change}`}, row.change)},
     text("scene", "scene", (row) => row.cell.scene), text("frame", "frame", (row) => String(row.cell.frame)),
     {...text("technique", "technique", (row) => row.cell.sequence.label), cell: (row) => element("a", {href: linkTo(row.cell)}, row.cell.sequence.label)},
     {key: "before", title: "before", value: (row) => row.before, text: (row) => withInterval(row.before, row.beforeInterval)},
     {key: "after", title: "after", value: (row) => row.after, text: (row) => withInterval(row.after, row.afterInterval)},
     {key: "difference", title: "difference", value: (row) => row.difference, text: (row) => signed(row.difference)},
     {key: "relative", title: "relative", value: (row) => Math.abs(row.relative), text: (row) => percent(row.relative)},
-    {...text("change", "verdict", (row) => row.change), cell: (row) => element("span", {class: `change ${row.change}`}, row.change)},
   ];
 }
 
