@@ -51,6 +51,16 @@ TEST(GateCost, ChangeThatChanceCanMake_IsNoFinding) {
   EXPECT_EQ(verdictOf(runWithRatios(3.0, 5.0), runWithRatios(6.0, 5.0)), Verdict::pass);
 }
 
+// Frame times of a loaded machine; the repetitions' processor times are as they were.
+TEST(GateCost, LoadThatChangesFrameTimesOnly_IsNoFinding) {
+  const Results before = runWithRatios(3.0, 1.02);
+  Results loaded = runWithRatios(3.0, 1.02);
+  loaded.cells[0].cost->ratio = 7;
+  loaded.cells[0].cost->ratioLow = 6.8;
+  loaded.cells[0].cost->ratioHigh = 7.2;
+  EXPECT_EQ(verdictOf(before, loaded), Verdict::pass);
+}
+
 // Of baselines from before the repetitions were stored.
 TEST(GateCost, WithoutRepetitions_IsJudgedByTheIntervals) {
   Results after = runWith(0.5, 6.0);
