@@ -2,7 +2,9 @@
 // disk may load scripts, but not fetch files).
 
 let folder = null;
-export const setBlobFolder = (name) => { folder = name; };
+export const setBlobFolder = (name) => {
+  folder = name;
+};
 
 const waiting = new Map();
 globalThis.probebenchBlob = (number, text) => waiting.get(number)?.(text);

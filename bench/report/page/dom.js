@@ -18,13 +18,21 @@ export const freshId = (prefix) => `${prefix}-${++lastId}`;
 
 // A select with its label. options: [{value, title}].
 export function choice(label, options, value, onChange) {
-  const select = element("select", {onchange: () => onChange(select.value)},
-    options.map((option) => element("option", {value: option.value, selected: option.value === value}, option.title)));
+  const select = element(
+    "select",
+    {onchange: () => onChange(select.value)},
+    options.map((option) => element("option", {value: option.value, selected: option.value === value}, option.title)),
+  );
   return element("label", {class: "choice"}, label, select);
 }
 
 export function section(id, title, ...children) {
-  return element("section", {id, "aria-labelledby": `${id}-title`}, element("h2", {id: `${id}-title`}, title), ...children);
+  return element(
+    "section",
+    {id, "aria-labelledby": `${id}-title`},
+    element("h2", {id: `${id}-title`}, title),
+    ...children,
+  );
 }
 
 // Puts new children into an element without a jump of the page: its height is kept while it is empty.

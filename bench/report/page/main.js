@@ -4,11 +4,20 @@ import {cellDetails} from "./cell_details.js";
 import {redrawCharts} from "./chart.js";
 import {comparisonSection} from "./comparison.js";
 import {announce, choice, element, refill, section} from "./dom.js";
-import {costNamed} from "./error_charts.js";
+import {costNamed} from "./cost_chart.js";
 import {COSTS, METRICS, makeModel} from "./model.js";
 import {Pictures} from "./pictures.js";
 import {findCell, linkTo, onPlace, readPlace, replacePlace} from "./places.js";
-import {aboutView, answerSection, bestOf, cellTable, chartsOf, circumstancesSection, firstLine, overviewTable} from "./sections.js";
+import {
+  aboutView,
+  answerSection,
+  bestOf,
+  cellTable,
+  chartsOf,
+  circumstancesSection,
+  firstLine,
+  overviewTable,
+} from "./sections.js";
 import {Viewer} from "./viewer.js";
 
 class Page {
@@ -19,8 +28,19 @@ class Page {
     this.before = runs.length > 1 ? runs[0] : null;
     this.earlierIndex = new Map(meta.comparison?.cells.map(({before, after}) => [after, before]));
     this.settings = {view: this.model.views[0], metric: "flip_hdr", region: "mask", truth: "converged", cost: "ratio"};
-    this.viewer = new Viewer({picturesOf: () => this.pictures, alternatives: (cell) => this.alternatives(cell), onMove: (cell) => this.open(cell), onMode: () => this.cell && replacePlace(this.cell, {mode: this.viewer.mode})});
-    this.context = {model: this.model, view: () => this.settings.view, question: () => this.questionFor(this.settings.view), cost: () => costNamed(this.settings.cost), openIndex: (index) => this.openIndex(index)};
+    this.viewer = new Viewer({
+      picturesOf: () => this.pictures,
+      alternatives: (cell) => this.alternatives(cell),
+      onMove: (cell) => this.open(cell),
+      onMode: () => this.cell && replacePlace(this.cell, {mode: this.viewer.mode}),
+    });
+    this.context = {
+      model: this.model,
+      view: () => this.settings.view,
+      question: () => this.questionFor(this.settings.view),
+      cost: () => costNamed(this.settings.cost),
+      openIndex: (index) => this.openIndex(index),
+    };
   }
 
   questionFor(view) {
@@ -32,11 +52,22 @@ class Page {
   alternatives(cell) {
     const others = [];
     const earlier = this.before?.model.cells[this.earlierIndex.get(cell.index)];
-    if (earlier) others.push({value: "before", title: "the run before", path: earlier.pictures?.rendered, pictures: this.before.pictures});
+    if (earlier)
+      others.push({
+        value: "before",
+        title: "the run before",
+        path: earlier.pictures?.rendered,
+        pictures: this.before.pictures,
+      });
     for (const sequence of cell.sequence.view.sequences) {
       const other = sequence.cells.find((c) => c.frame === cell.frame);
       if (sequence !== cell.sequence && this.pictures.has(other?.pictures?.rendered))
-        others.push({value: sequence.label, title: sequence.label, path: other.pictures.rendered, pictures: this.pictures});
+        others.push({
+          value: sequence.label,
+          title: sequence.label,
+          path: other.pictures.rendered,
+          pictures: this.pictures,
+        });
     }
     return others;
   }
@@ -49,25 +80,76 @@ class Page {
     this.charts = element("div");
     this.about = element("p", {class: "note"});
     this.table = element("div");
-    this.details = element("div", {class: "details"}, element("p", {}, "Choose a technique in the table or a point in a chart."));
-    const overview = overviewTable(this.model, (view) => ({...this.questionFor(view), metric: "flip_hdr"}), (view) => { this.setting("view", view); document.getElementById("errors").scrollIntoView(); });
-    document.getElementById("main").append(...[answerSection(this.meta.answer), section("overview", "Overview", overview), this.meta.comparison && comparisonSection(this.meta.comparison, this.model), this.controls,
-      section("errors", "Errors and costs", this.about, this.charts), section("techniques", "Techniques", this.table), section("cell", "Pictures and numbers of a cell", this.details), circumstancesSection(this.model)].filter(Boolean));
-    document.getElementById("contents").append(...[...document.querySelectorAll("main > section")].map((s) => element("a", {href: `#${s.id}`}, s.querySelector("h2").textContent)));
+    this.details = element(
+      "div",
+      {class: "details"},
+      element("p", {}, "Choose a technique in the table or a point in a chart."),
+    );
+    const overview = overviewTable(
+      this.model,
+      (view) => ({...this.questionFor(view), metric: "flip_hdr"}),
+      (view) => {
+        this.setting("view", view);
+        document.getElementById("errors").scrollIntoView();
+      },
+    );
+    document
+      .getElementById("main")
+      .append(
+        ...[
+          answerSection(this.meta.answer),
+          section("overview", "Overview", overview),
+          this.meta.comparison && comparisonSection(this.meta.comparison, this.model),
+          this.controls,
+          section("errors", "Errors and costs", this.about, this.charts),
+          section("techniques", "Techniques", this.table),
+          section("cell", "Pictures and numbers of a cell", this.details),
+          circumstancesSection(this.model),
+        ].filter(Boolean),
+      );
+    document
+      .getElementById("contents")
+      .append(
+        ...[...document.querySelectorAll("main > section")].map((s) =>
+          element("a", {href: `#${s.id}`}, s.querySelector("h2").textContent),
+        ),
+      );
     this.fillView();
   }
 
   fillControls() {
-    const {views} = this.model, {view} = this.settings;
-    const select = (label, name, options, value = this.settings[name]) => choice(label, options, value, (chosen) => this.setting(name, chosen));
+    const {views} = this.model,
+      {view} = this.settings;
+    const select = (label, name, options, value = this.settings[name]) =>
+      choice(label, options, value, (chosen) => this.setting(name, chosen));
     const titled = (list) => list.map(({key, title}) => ({value: key, title}));
     const known = COSTS.filter((cost) => view.sequences.some((s) => Number.isFinite(cost.of(s.cells[0]) ?? NaN)));
     const hasMatched = view.sequences.some((s) => s.cells.some((cell) => cell.matched));
-    refill(this.controls, choice("Scene", views.map((v) => ({value: v.id, title: v.title})), view.id, (id) => this.setting("view", views.find((v) => v.id === id))),
+    refill(
+      this.controls,
+      choice(
+        "Scene",
+        views.map((v) => ({value: v.id, title: v.title})),
+        view.id,
+        (id) =>
+          this.setting(
+            "view",
+            views.find((v) => v.id === id),
+          ),
+      ),
       select("Metric", "metric", titled(METRICS)),
-      view.hasMask && select("Region", "region", [{value: "mask", title: "mask: reflective and refractive objects"}, {value: "whole", title: "whole image"}]),
-      hasMatched && select("Truth", "truth", [{value: "converged", title: "converged"}, {value: "matched", title: "own number of bounces"}]),
-      known.length > 1 && select("Cost", "cost", titled(known)));
+      view.hasMask &&
+        select("Region", "region", [
+          {value: "mask", title: "mask: reflective and refractive objects"},
+          {value: "whole", title: "whole image"},
+        ]),
+      hasMatched &&
+        select("Truth", "truth", [
+          {value: "converged", title: "converged"},
+          {value: "matched", title: "own number of bounces"},
+        ]),
+      known.length > 1 && select("Cost", "cost", titled(known)),
+    );
     const isSticky = getComputedStyle(this.controls).position === "sticky";
     document.documentElement.style.scrollPaddingTop = isSticky ? `${this.controls.offsetHeight + 12}px` : "";
   }
@@ -122,7 +204,13 @@ class Page {
   listen() {
     onPlace((place) => this.openPlace(place));
     document.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("input:not([type=radio]):not([type=range]), select, textarea")) return;
+      if (
+        event.ctrlKey ||
+        event.metaKey ||
+        event.altKey ||
+        event.target.closest?.("input:not([type=radio]):not([type=range]), select, textarea")
+      )
+        return;
       if (this.viewer.key(event.key)) event.preventDefault();
     });
   }
@@ -137,7 +225,7 @@ function startTheme() {
     redrawCharts();
   };
   let chosen = "auto";
-  select.addEventListener("change", () => apply(chosen = select.value));
+  select.addEventListener("change", () => apply((chosen = select.value)));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawCharts);
   globalThis.addEventListener("beforeprint", () => apply("light", true));
   globalThis.addEventListener("afterprint", () => apply(chosen));
@@ -146,10 +234,12 @@ function startTheme() {
 async function start() {
   const meta = JSON.parse(document.getElementById("meta").textContent);
   setBlobFolder(meta.beside);
-  const runs = await Promise.all(meta.runs.map(async (run) => {
-    const text = new TextDecoder().decode(await inflate(await blob(run.results)));
-    return {name: run.name, model: makeModel(JSON.parse(text)), pictures: new Pictures(run.pictures)};
-  }));
+  const runs = await Promise.all(
+    meta.runs.map(async (run) => {
+      const text = new TextDecoder().decode(await inflate(await blob(run.results)));
+      return {name: run.name, model: makeModel(JSON.parse(text)), pictures: new Pictures(run.pictures)};
+    }),
+  );
   startTheme();
   const page = new Page(meta, runs);
   page.build();
@@ -161,6 +251,8 @@ async function start() {
 }
 
 start().catch((error) => {
-  document.getElementById("main").append(element("p", {class: "message"}, `The report can't be shown: ${error.message}`));
+  document
+    .getElementById("main")
+    .append(element("p", {class: "message"}, `The report can't be shown: ${error.message}`));
   throw error;
 });

@@ -13,8 +13,20 @@ export const METRICS = [
 ];
 
 export const COSTS = [
-  {key: "ratio", title: "frame time, × plain", of: (cell) => cell.cost?.ratio, low: (c) => c.cost?.ratio_low, high: (c) => c.cost?.ratio_high},
-  {key: "frame_ms", title: "frame ms", of: (cell) => cell.cost?.frame_ms, low: (c) => c.cost?.frame_ms_low, high: (c) => c.cost?.frame_ms_high},
+  {
+    key: "ratio",
+    title: "frame time, × plain",
+    of: (cell) => cell.cost?.ratio,
+    low: (c) => c.cost?.ratio_low,
+    high: (c) => c.cost?.ratio_high,
+  },
+  {
+    key: "frame_ms",
+    title: "frame ms",
+    of: (cell) => cell.cost?.frame_ms,
+    low: (c) => c.cost?.frame_ms_low,
+    high: (c) => c.cost?.frame_ms_high,
+  },
   {key: "p99", title: "frame ms, 99th percentile", of: (cell) => cell.cost?.peaks?.p99},
   {key: "renders", title: "renders a frame", of: (cell) => cell.cost?.measured_renders_per_frame},
   {key: "mib", title: "probe MiB", of: (cell) => cell.counters?.probe_bytes / 2 ** 20},
@@ -67,10 +79,14 @@ export function meanInterval(sequence, question) {
   return [mean(intervals.map((i) => i[0])), mean(intervals.map((i) => i[1]))];
 }
 
-const techniqueText = (technique) => Object.entries(technique).map(([axis, value]) => `${axis}=${value}`).join(" ");
+const techniqueText = (technique) =>
+  Object.entries(technique)
+    .map(([axis, value]) => `${axis}=${value}`)
+    .join(" ");
 
 // As the program prints it and --only reads it.
-export const keyOf = (cell) => `scene=${cell.scene} camera=${cell.camera} frame=${cell.frame} ${techniqueText(cell.technique)}`;
+export const keyOf = (cell) =>
+  `scene=${cell.scene} camera=${cell.camera} frame=${cell.frame} ${techniqueText(cell.technique)}`;
 
 function axesOf(sequences) {
   const axes = new Map();
@@ -79,13 +95,16 @@ function axesOf(sequences) {
       if (!axes.has(axis)) axes.set(axis, []);
       if (!axes.get(axis).includes(value)) axes.get(axis).push(value);
     }
-  return [...axes].filter(([, values]) => values.length > 1).map(([name, values]) => ({name, values: sortedValues(values)}));
+  return [...axes]
+    .filter(([, values]) => values.length > 1)
+    .map(([name, values]) => ({name, values: sortedValues(values)}));
 }
 
 function addLabels(view) {
   for (const sequence of view.sequences) {
     const named = view.axes.filter((axis) => axis.name in sequence.technique);
-    sequence.label = named.map((axis) => `${axis.name}=${sequence.technique[axis.name]}`).join(" ") || "the only technique";
+    sequence.label =
+      named.map((axis) => `${axis.name}=${sequence.technique[axis.name]}`).join(" ") || "the only technique";
     for (const cell of sequence.cells) {
       cell.sequence = sequence;
       cell.shortKey = `scene=${view.scene} camera=${view.camera} frame=${cell.frame} ${sequence.label}`;
@@ -99,10 +118,12 @@ export function makeModel(results) {
     cell.index = index;
     cell.key = keyOf(cell);
     const place = JSON.stringify([cell.scene, cell.camera]);
-    if (!views.has(place)) views.set(place, {id: String(views.size), scene: cell.scene, camera: cell.camera, bySequence: new Map()});
+    if (!views.has(place))
+      views.set(place, {id: String(views.size), scene: cell.scene, camera: cell.camera, bySequence: new Map()});
     const sequences = views.get(place).bySequence;
     const technique = techniqueText(cell.technique);
-    if (!sequences.has(technique)) sequences.set(technique, {view: views.get(place), technique: cell.technique, cells: []});
+    if (!sequences.has(technique))
+      sequences.set(technique, {view: views.get(place), technique: cell.technique, cells: []});
     sequences.get(technique).cells.push(cell);
   });
   for (const view of views.values()) {
@@ -110,8 +131,10 @@ export function makeModel(results) {
     view.axes = axesOf(view.sequences);
     view.frames = [...new Set(view.sequences.flatMap((s) => s.cells.map((c) => c.frame)))].sort((a, b) => a - b);
     view.hasMask = view.sequences.some((s) => s.cells.some((c) => c.mask_metrics));
-    view.title = views.size > 1 && [...views.values()].filter((v) => v.scene === view.scene).length > 1
-      ? `${view.scene}, camera ${view.camera}` : view.scene;
+    view.title =
+      views.size > 1 && [...views.values()].filter((v) => v.scene === view.scene).length > 1
+        ? `${view.scene}, camera ${view.camera}`
+        : view.scene;
     addLabels(view);
   }
   return {...results, views: [...views.values()]};

@@ -13,8 +13,7 @@ export function significant(value, digits = 3) {
   if (Number.isNaN(value)) return "–";
   if (value === 0 || !Number.isFinite(value)) return String(value).replace("Infinity", "inf");
   const exponent = Math.floor(Math.log10(Math.abs(value)));
-  if (exponent < -4 || exponent >= 6)
-    return value.toExponential(digits - 1).replace(/e([+-])(\d)$/, "e$10$2");
+  if (exponent < -4 || exponent >= 6) return value.toExponential(digits - 1).replace(/e([+-])(\d)$/, "e$10$2");
   return value.toFixed(Math.max(0, digits - 1 - exponent));
 }
 
@@ -32,5 +31,6 @@ export const mean = (values) => {
 // "resolution" 64 before 128, names as they come.
 export function sortedValues(values) {
   return values.every((value) => value !== "" && Number.isFinite(Number(value)))
-    ? [...values].sort((a, b) => Number(a) - Number(b)) : values;
+    ? [...values].sort((a, b) => Number(a) - Number(b))
+    : values;
 }

@@ -9,6 +9,7 @@ function dominates(a, b) {
 }
 
 export function paretoFront(choices) {
-  return choices.filter((choice) => !choices.some((other) => dominates(other, choice)))
+  return choices
+    .filter((choice) => !choices.some((other) => dominates(other, choice)))
     .sort((a, b) => a.cost.value - b.cost.value || a.error.value - b.error.value);
 }

@@ -5,7 +5,8 @@ import {blob, inflate} from "./blobs.js";
 const HALF_VALUES = (() => {
   const values = new Float32Array(65536);
   for (let bits = 0; bits < 65536; ++bits) {
-    const exponent = (bits >> 10) & 31, mantissa = bits & 1023;
+    const exponent = (bits >> 10) & 31,
+      mantissa = bits & 1023;
     const amount = exponent === 0 ? mantissa * 2 ** -24 : (1 + mantissa / 1024) * 2 ** (exponent - 15);
     values[bits] = bits & 0x8000 ? -amount : amount;
   }
@@ -39,13 +40,19 @@ export class Pictures {
     return this.once(path, async () => {
       const entry = this.files[path];
       const base = entry.base ? (await this.hdr(entry.base)).planes : undefined;
-      return {width: entry.width, height: entry.height, planes: unpack(await inflate(await blob(entry.blob)), entry, base)};
+      return {
+        width: entry.width,
+        height: entry.height,
+        planes: unpack(await inflate(await blob(entry.blob)), entry, base),
+      };
     });
   }
 
   // An ImageBitmap of a PNG.
   png(path) {
-    return this.once(path, async () => createImageBitmap(new Blob([await blob(this.files[path].blob)], {type: "image/png"})));
+    return this.once(path, async () =>
+      createImageBitmap(new Blob([await blob(this.files[path].blob)], {type: "image/png"})),
+    );
   }
 
   once(path, load) {
@@ -55,7 +62,8 @@ export class Pictures {
 }
 
 export function valueAt(picture, x, y) {
-  const size = picture.width * picture.height, i = y * picture.width + x;
+  const size = picture.width * picture.height,
+    i = y * picture.width + x;
   return [0, 1, 2].map((channel) => HALF_VALUES[picture.planes[channel * size + i]]);
 }
 

@@ -58,7 +58,8 @@ export class Stage {
   // Of the picture, in pixels.
   pixelOf(event, width, height) {
     const [x, y] = this.placeOf(event);
-    const at = (place, centre, size) => Math.min(Math.max(Math.floor((centre + (place - 0.5) / this.lens.zoom) * size), 0), size - 1);
+    const at = (place, centre, size) =>
+      Math.min(Math.max(Math.floor((centre + (place - 0.5) / this.lens.zoom) * size), 0), size - 1);
     return [at(x, this.lens.x, width), at(y, this.lens.y, height)];
   }
 
@@ -88,7 +89,8 @@ export class Stage {
   // parts: [{picture, from, to}], canvases of one size, each shown between two fractions of the width.
   draw(parts) {
     const ratio = globalThis.devicePixelRatio || 1;
-    const width = Math.round(this.canvas.clientWidth * ratio), height = Math.round(this.canvas.clientHeight * ratio);
+    const width = Math.round(this.canvas.clientWidth * ratio),
+      height = Math.round(this.canvas.clientHeight * ratio);
     if (!width || !height) return;
     Object.assign(this.canvas, {width, height});
     const context = this.canvas.getContext("2d");
@@ -96,13 +98,24 @@ export class Stage {
   }
 
   drawPart(context, picture, left, partWidth) {
-    const {width, height} = this.canvas, {zoom, x, y} = this.lens;
+    const {width, height} = this.canvas,
+      {zoom, x, y} = this.lens;
     context.save();
     context.beginPath();
     context.rect(left, 0, partWidth, height);
     context.clip();
     context.imageSmoothingEnabled = (zoom * width) / picture.width < 1;
-    context.drawImage(picture, (x - 0.5 / zoom) * picture.width, (y - 0.5 / zoom) * picture.height, picture.width / zoom, picture.height / zoom, 0, 0, width, height);
+    context.drawImage(
+      picture,
+      (x - 0.5 / zoom) * picture.width,
+      (y - 0.5 / zoom) * picture.height,
+      picture.width / zoom,
+      picture.height / zoom,
+      0,
+      0,
+      width,
+      height,
+    );
     context.restore();
   }
 }

@@ -1,6 +1,6 @@
 // Vega from the modules that Debian packages: each is a CommonJS module in `vegaSources`, loaded when another wants it.
 
-const OTHER_NAMES = {"vega-selections": "vega-selection"};  // as vega-functions calls it
+const OTHER_NAMES = {"vega-selections": "vega-selection"}; // as vega-functions calls it
 const loadedModules = {};
 
 function requireVega(name) {
@@ -19,9 +19,13 @@ let vegaParts = null;
 export function drawVega(node, specification, onClick) {
   if (!vegaParts) {
     const {transforms} = requireVega("vega-dataflow");
-    for (const name of ["vega-transforms", "vega-view-transforms", "vega-encode"]) Object.assign(transforms, requireVega(name));
-    vegaParts = {parse: requireVega("vega-parser").parse, View: requireVega("vega-view").View,
-      expr: requireVega("vega-interpreter").expressionInterpreter};
+    for (const name of ["vega-transforms", "vega-view-transforms", "vega-encode"])
+      Object.assign(transforms, requireVega(name));
+    vegaParts = {
+      parse: requireVega("vega-parser").parse,
+      View: requireVega("vega-view").View,
+      expr: requireVega("vega-interpreter").expressionInterpreter,
+    };
   }
   const runtime = vegaParts.parse(specification, {}, {ast: true});
   const view = new vegaParts.View(runtime, {expr: vegaParts.expr, renderer: "svg", logLevel: 1});

@@ -1,27 +1,26 @@
 // The pictures of a cell against the reference or another cell's: flipped in place, side by side, split, as a difference and
 // as FLIP's map of the error.
-import {announce, choice, element, freshId} from "./dom.js";
+import {announce, choice, element} from "./dom.js";
 import {significant} from "./numbers.js";
 import {developed, difference, valueAt} from "./pictures.js";
 import {Lens, Stage} from "./stage.js";
-
-const MODES = [
-  {key: "flip", title: "Flip"}, {key: "side", title: "Side by side"}, {key: "split", title: "Split"},
-  {key: "difference", title: "Difference"}, {key: "error", title: "FLIP map"},
-];
-const MAX_STOPS = 8;
-
-const KEYS = [
-  ["1 … 5", "flip, side by side, split, difference, FLIP map"], ["f or space", "flip: the other picture"],
-  ["[ and ]", "exposure half a stop down, up"], ["+ and −", "zoom"], ["0", "whole picture, exposure 0"],
-  [", and .", "frame before, after"], ["p and n", "technique before, after"],
-];
+import {MAX_STOPS, MODES, exposureControls, keyHelp, modeControls, zoomControls} from "./viewer_controls.js";
 
 export class Viewer {
   // picturesOf(cell): the Pictures of the cell's run. alternatives(cell): [{value, title, path, pictures}] beside the reference.
   // onMove(cell): another frame or technique is wanted. onMode(): the address should tell the mode.
   constructor({picturesOf, alternatives, onMove, onMode}) {
-    Object.assign(this, {picturesOf, alternatives, onMove, onMode, mode: "flip", flipped: false, stops: 0, divider: 0.5, against: "reference"});
+    Object.assign(this, {
+      picturesOf,
+      alternatives,
+      onMove,
+      onMode,
+      mode: "flip",
+      flipped: false,
+      stops: 0,
+      divider: 0.5,
+      against: "reference",
+    });
     this.lens = new Lens(() => this.draw());
     this.stages = [new Stage(this.lens), new Stage(this.lens)];
     this.stages[0].onDivider = null;
@@ -33,37 +32,40 @@ export class Viewer {
   build() {
     this.message = element("p", {class: "message", hidden: true});
     this.pixel = element("output", {class: "pixel"}, "\u00a0");
-    this.screen = element("div", {class: "screen"}, this.stages.map((stage) => stage.element));
+    this.screen = element(
+      "div",
+      {class: "screen"},
+      this.stages.map((stage) => stage.element),
+    );
     for (const stage of this.stages) {
       stage.canvas.addEventListener("pointermove", (event) => this.readPixel(stage, event));
       stage.canvas.addEventListener("click", () => this.element.focus({preventScroll: true}));
     }
-    this.toolbar = element("div", {class: "toolbar"}, this.modeControls(), this.againstPlace = element("span"), this.exposureControls(), this.zoomControls(), this.framePlace = element("span", {class: "frames"}));
+    this.toolbar = element(
+      "div",
+      {class: "toolbar"},
+      modeControls(this),
+      (this.againstPlace = element("span")),
+      exposureControls(this),
+      zoomControls(this.lens),
+      (this.framePlace = element("span", {class: "frames"})),
+    );
     this.legend = element("p", {class: "map-legend"}, "FLIP 0", element("span", {class: "magma"}), "1");
-    this.element = element("div", {class: "viewer", tabindex: 0, role: "group", "aria-label": "Pictures", onkeydown: (event) => this.spaceKey(event)},
-      this.toolbar, this.screen, this.message, element("div", {class: "below"}, this.pixel, this.legend), this.help());
-  }
-
-  modeControls() {
-    const name = freshId("mode");
-    return element("fieldset", {class: "modes"}, element("legend", {class: "unseen"}, "How to compare"), MODES.map((mode, i) =>
-      element("label", {title: `key ${i + 1}`}, element("input", {type: "radio", name, value: mode.key, checked: mode.key === this.mode, onchange: () => this.setMode(mode.key)}), element("span", {}, mode.title))));
-  }
-
-  exposureControls() {
-    this.exposure = element("input", {type: "range", min: -MAX_STOPS, max: MAX_STOPS, step: 0.5, value: 0, class: "exposure", oninput: () => this.setStops(Number(this.exposure.value))});
-    this.exposureText = element("output", {}, "+0.0 stops");
-    return element("label", {class: "choice"}, "Exposure", this.exposure, this.exposureText);
-  }
-
-  zoomControls() {
-    const button = (text, label, action) => element("button", {type: "button", "aria-label": label, title: label, onclick: action}, text);
-    return element("span", {class: "zoom", role: "group", "aria-label": "Zoom"}, button("−", "zoom out", () => this.lens.zoomBy(0.5)), button("fit", "whole picture", () => this.lens.reset()), button("+", "zoom in", () => this.lens.zoomBy(2)));
-  }
-
-  help() {
-    return element("details", {class: "help"}, element("summary", {}, "Keys"), element("dl", {}, KEYS.map(([key, meaning]) => [element("dt", {}, element("kbd", {}, key)), element("dd", {}, meaning)])),
-      element("p", {}, "Ctrl and the wheel zoom, dragging moves, a double click zooms in. Exposure works on the radiance, not on the picture of it."));
+    this.element = element(
+      "div",
+      {
+        class: "viewer",
+        tabindex: 0,
+        role: "group",
+        "aria-label": "Pictures",
+        onkeydown: (event) => this.spaceKey(event),
+      },
+      this.toolbar,
+      this.screen,
+      this.message,
+      element("div", {class: "below"}, this.pixel, this.legend),
+      keyHelp(),
+    );
   }
 
   // --- What is shown
@@ -76,28 +78,63 @@ export class Viewer {
   }
 
   fillAgainst() {
-    this.others = [{value: "reference", title: "reference", path: this.cell.pictures?.reference, pictures: this.picturesOf(this.cell)}, ...this.alternatives(this.cell)];
+    this.others = [
+      {
+        value: "reference",
+        title: "reference",
+        path: this.cell.pictures?.reference,
+        pictures: this.picturesOf(this.cell),
+      },
+      ...this.alternatives(this.cell),
+    ];
     if (!this.others.some((other) => other.value === this.against)) this.against = "reference";
-    this.againstPlace.replaceChildren(choice("Against", this.others, this.against, (value) => { this.against = value; this.load(); }));
+    this.againstPlace.replaceChildren(
+      choice("Against", this.others, this.against, (value) => {
+        this.against = value;
+        this.load();
+      }),
+    );
   }
 
   fillFrames() {
-    const {cells} = this.cell.sequence, at = cells.indexOf(this.cell);
+    const {cells} = this.cell.sequence,
+      at = cells.indexOf(this.cell);
     this.framePlace.replaceChildren();
     if (cells.length < 2) return;
-    const slider = element("input", {type: "range", min: 0, max: cells.length - 1, value: at, class: "scrubber", "aria-valuetext": `frame ${this.cell.frame}`, oninput: () => this.onMove(cells[Number(slider.value)])});
-    this.framePlace.append(element("label", {class: "choice"}, "Frame", slider, element("output", {}, String(this.cell.frame))));
+    const slider = element("input", {
+      type: "range",
+      min: 0,
+      max: cells.length - 1,
+      value: at,
+      class: "scrubber",
+      "aria-valuetext": `frame ${this.cell.frame}`,
+      oninput: () => this.onMove(cells[Number(slider.value)]),
+    });
+    this.framePlace.append(
+      element("label", {class: "choice"}, "Frame", slider, element("output", {}, String(this.cell.frame))),
+    );
   }
 
   async load() {
-    const cell = this.cell, own = this.picturesOf(cell), other = this.others.find((o) => o.value === this.against);
+    const cell = this.cell,
+      own = this.picturesOf(cell),
+      other = this.others.find((o) => o.value === this.against);
     const known = (pictures, path) => (pictures.has(path) ? pictures.hdr(path) : undefined);
     try {
-      const [rendered, against, map] = await Promise.all([known(own, cell.pictures?.rendered), known(other.pictures, other.path), own.has(cell.pictures?.flip) ? own.png(cell.pictures.flip) : undefined]);
-      if (this.cell !== cell) return;  // another one was opened meanwhile
+      const [rendered, against, map] = await Promise.all([
+        known(own, cell.pictures?.rendered),
+        known(other.pictures, other.path),
+        own.has(cell.pictures?.flip) ? own.png(cell.pictures.flip) : undefined,
+      ]);
+      if (this.cell !== cell) return; // another one was opened meanwhile
       this.shown = {rendered, against, map, againstTitle: other.title};
-      this.say(rendered ? "" : against ? "The run kept no picture of this frame: a suite with [images] frames = \"all\" keeps those of every frame. This is the reference."
-        : "The run's folder has no pictures of this cell.");
+      this.say(
+        rendered
+          ? ""
+          : against
+            ? 'The run kept no picture of this frame: a suite with [images] frames = "all" keeps those of every frame. This is the reference.'
+            : "The run's folder has no pictures of this cell.",
+      );
     } catch (error) {
       this.shown = undefined;
       this.say(`The pictures can't be shown: ${error.message}.`);
@@ -128,11 +165,29 @@ export class Viewer {
     const all = (label, picture) => ({label, parts: [{picture, from: 0, to: 1}]});
     if (!rendered || !against) return [all(rendered ? "rendered" : againstTitle, this.developed(rendered ?? against))];
     switch (this.mode) {
-      case "side": return [all(againstTitle, this.developed(against)), all("rendered", this.developed(rendered))];
-      case "split": return [{label: `${againstTitle} | rendered`, divider: true, parts: [{picture: this.developed(against), from: 0, to: this.divider}, {picture: this.developed(rendered), from: this.divider, to: 1}]}];
-      case "difference": return [all(`|rendered − ${againstTitle}|`, difference(rendered, against, this.stops))];
-      case "error": return [map ? all("FLIP map of rendered against reference", map) : all("rendered (no FLIP map was kept)", this.developed(rendered))];
-      default: return [this.flipped ? all(againstTitle, this.developed(against)) : all("rendered", this.developed(rendered))];
+      case "side":
+        return [all(againstTitle, this.developed(against)), all("rendered", this.developed(rendered))];
+      case "split":
+        return [
+          {
+            label: `${againstTitle} | rendered`,
+            divider: true,
+            parts: [
+              {picture: this.developed(against), from: 0, to: this.divider},
+              {picture: this.developed(rendered), from: this.divider, to: 1},
+            ],
+          },
+        ];
+      case "difference":
+        return [all(`|rendered − ${againstTitle}|`, difference(rendered, against, this.stops))];
+      case "error":
+        return [
+          map
+            ? all("FLIP map of rendered against reference", map)
+            : all("rendered (no FLIP map was kept)", this.developed(rendered)),
+        ];
+      default:
+        return [this.flipped ? all(againstTitle, this.developed(against)) : all("rendered", this.developed(rendered))];
     }
   }
 
@@ -146,7 +201,15 @@ export class Viewer {
       if (!plan[i]) return;
       stage.label.textContent = plan[i].label;
       stage.canvas.setAttribute("aria-label", `${plan[i].label}, ${this.cell.shortKey}`);
-      stage.onDivider = plan[i].divider ? {position: () => this.divider, move: (x) => { this.divider = x; this.draw(); }} : null;
+      stage.onDivider = plan[i].divider
+        ? {
+            position: () => this.divider,
+            move: (x) => {
+              this.divider = x;
+              this.draw();
+            },
+          }
+        : null;
       stage.element.style.setProperty("--divider", plan[i].divider ? `${100 * this.divider}%` : "-10px");
       stage.draw(plan[i].parts);
     });
@@ -157,8 +220,14 @@ export class Viewer {
     const picture = rendered ?? against;
     if (!picture) return;
     const [x, y] = stage.pixelOf(event, picture.width, picture.height);
-    const text = (title, image) => image && `${title} ${valueAt(image, x, y).map((v) => significant(v)).join(" ")}`;
-    this.pixel.textContent = [`pixel ${x}, ${y}`, text("rendered", rendered), text(againstTitle, against)].filter(Boolean).join("   ");
+    const text = (title, image) =>
+      image &&
+      `${title} ${valueAt(image, x, y)
+        .map((v) => significant(v))
+        .join(" ")}`;
+    this.pixel.textContent = [`pixel ${x}, ${y}`, text("rendered", rendered), text(againstTitle, against)]
+      .filter(Boolean)
+      .join("   ");
   }
 
   // --- What can be done
@@ -187,7 +256,8 @@ export class Viewer {
 
   showRectangle({x, y, width, height}) {
     const picture = this.shown?.rendered ?? this.shown?.against;
-    if (picture) this.lens.showRectangle(x / picture.width, y / picture.height, width / picture.width, height / picture.height);
+    if (picture)
+      this.lens.showRectangle(x / picture.width, y / picture.height, width / picture.width, height / picture.height);
     this.element.scrollIntoView({block: "nearest"});
   }
 
@@ -213,9 +283,25 @@ export class Viewer {
 
   // Of the whole page; true where the key means something.
   key(key) {
-    const actions = {f: () => this.flip(), "[": () => this.setStops(this.stops - 0.5), "]": () => this.setStops(this.stops + 0.5), "+": () => this.lens.zoomBy(2), "=": () => this.lens.zoomBy(2), "-": () => this.lens.zoomBy(0.5),
-      0: () => { this.setStops(0); this.lens.reset(); }, ",": () => this.moveFrame(-1), ".": () => this.moveFrame(1), p: () => this.moveTechnique(-1), n: () => this.moveTechnique(1)};
-    MODES.forEach((mode, i) => { actions[i + 1] = () => this.setMode(mode.key); });
+    const actions = {
+      f: () => this.flip(),
+      "[": () => this.setStops(this.stops - 0.5),
+      "]": () => this.setStops(this.stops + 0.5),
+      "+": () => this.lens.zoomBy(2),
+      "=": () => this.lens.zoomBy(2),
+      "-": () => this.lens.zoomBy(0.5),
+      0: () => {
+        this.setStops(0);
+        this.lens.reset();
+      },
+      ",": () => this.moveFrame(-1),
+      ".": () => this.moveFrame(1),
+      p: () => this.moveTechnique(-1),
+      n: () => this.moveTechnique(1),
+    };
+    MODES.forEach((mode, i) => {
+      actions[i + 1] = () => this.setMode(mode.key);
+    });
     if (!this.cell || !(key in actions)) return false;
     actions[key]();
     return true;
