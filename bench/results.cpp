@@ -68,11 +68,12 @@ struct Region {
 };
 
 constexpr Region kRegions[] = {
-    {"metrics", "whole", ""},     {"mask_metrics", "mask", ""},
-    {"floor", "floor", ""},       {"mask_floor", "mask_floor", ""},
-    {"unbiased", "unbiased", ""}, {"flicker", "flicker", ""},
-    {"cost", "cost", ""},         {"reported_cost", "reported_cost", ""},
-    {"counters", "counter", ""},  {"coats_of_probes", "probe", "coats"},
+    {"metrics", "whole", ""},       {"mask_metrics", "mask", ""},
+    {"floor", "floor", ""},         {"mask_floor", "mask_floor", ""},
+    {"unbiased", "unbiased", ""},   {"flicker", "flicker", ""},
+    {"cost", "cost", ""},           {"reported_cost", "reported_cost", ""},
+    {"counters", "counter", ""},    {"coats_of_probes", "probe", "coats"},
+    {"integrity", "integrity", ""},
 };
 
 // Entries of an array, each a region of its own, named after the entry's number (from 1 on) or its `nameKey`.
@@ -105,9 +106,31 @@ void appendIntervals(const std::string& prefix, const char* region, const Metric
                {{"low", encodeNumber(interval.low)}, {"high", encodeNumber(interval.high)}}, csv);
 }
 
-void appendCell(const CellResult& cell, const std::vector<std::string>& axes, std::string& csv) {
+std::string prefixOf(const CellResult& cell, const std::vector<std::string>& axes) {
   std::string prefix = fmt::format("{},{},{},", csvField(cell.scene), csvField(cell.camera), cell.frame);
   for (const std::string& axis : axes) prefix += csvField(axisValue(cell, axis)) + ',';
+  return prefix;
+}
+
+void appendAttribution(const Attribution& attribution, const std::vector<std::string>& axes, std::string& csv) {
+  CellResult cell;
+  cell.scene = attribution.scene;
+  cell.camera = attribution.camera;
+  cell.frame = attribution.frame;
+  cell.technique = attribution.technique;
+  const std::string prefix = prefixOf(cell, axes);
+  const auto append = [&](const char* region, const AttributionStep& step, const MetricValues& values) {
+    for (const auto& [metric, value] : values)
+      appendRows(prefix + csvField(fmt::format("{} {}", region, step.step)) + ',', metric, encodeNumber(value), csv);
+  };
+  for (const AttributionStep& step : attribution.steps) {
+    append("attribution", step, step.metrics);
+    append("attribution_mask", step, step.maskMetrics);
+  }
+}
+
+void appendCell(const CellResult& cell, const std::vector<std::string>& axes, std::string& csv) {
+  const std::string prefix = prefixOf(cell, axes);
   const Json json = cellToJson(cell);
   for (const Region& region : kRegions) {
     const Json values = json.value(region.jsonKey, Json());  // null where a cell doesn't have it
@@ -199,6 +222,7 @@ std::string toCsv(const Results& results) {
   for (const std::string& axis : axes) csv += csvField(axis) + ',';
   csv += "region,metric,value\n";
   for (const CellResult& cell : results.cells) appendCell(cell, axes, csv);
+  for (const Attribution& attribution : results.attribution) appendAttribution(attribution, axes, csv);
   return csv;
 }
 
