@@ -86,20 +86,27 @@ void requireObject(const std::vector<Section>& sections, const std::string& obje
 }
 
 // Over the frames. The interval of a mean is the mean of the intervals: what is wrong with one frame's reference may be
-// wrong with all of them alike.
+// wrong with all of them alike. Frames without one take it from those that have one.
 std::optional<Estimate> sequenceLoss(const Sequence& sequence, const Selection& selection, Region region) {
   std::optional<Estimate> worst;
-  Estimate sum;
-  int count = 0;
+  double sum = 0, below = 0, above = 0;
+  int count = 0, known = 0;
   for (const CellResult* cell : sequence) {
     const std::optional<Estimate> loss = lossOf(*cell, selection, region);
     if (!loss) continue;
     if (!worst || loss->value > worst->value) worst = loss;
-    sum = {sum.value + loss->value, sum.low + loss->low, sum.high + loss->high};
+    sum += loss->value;
     ++count;
+    if (!loss->hasInterval()) continue;
+    below += loss->value - loss->low;
+    above += loss->high - loss->value;
+    ++known;
   }
-  if (!worst || selection.worstFrame) return worst;
-  return Estimate{sum.value / count, sum.low / count, sum.high / count};
+  if (!worst) return std::nullopt;
+  const double value = selection.worstFrame ? worst->value : sum / count;
+  if (selection.worstFrame && worst->hasInterval()) return worst;
+  if (known == 0) return Estimate{value, value, value};
+  return Estimate{value, value - below / known, value + above / known};
 }
 
 void takeLarger(std::optional<Estimate>& largest, const Estimate& other) {

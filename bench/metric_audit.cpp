@@ -119,6 +119,11 @@ class Audit {
     for (const MetricDispute& dispute : sorted) {
       if (chosen.size() == count) break;
       if (shown.contains(dispute.byFlip) || shown.contains(dispute.byRelmse)) continue;
+      // Techniques that do the same have the same disputes.
+      if (std::ranges::any_of(chosen, [&](const MetricDispute& other) {
+            return other.flipFactor == dispute.flipFactor && other.relmseFactor == dispute.relmseFactor;
+          }))
+        continue;
       shown.insert({dispute.byFlip, dispute.byRelmse});
       chosen.push_back(dispute);
     }

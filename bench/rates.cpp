@@ -46,12 +46,12 @@ std::optional<double> Rates::secondsPerUnit(const WorkKind& kind) const {
 }
 
 void Rates::record(const WorkKind& kind, double units, double seconds) {
-  if (units > 0) measured_[machine_][kind] = {units, seconds};
+  if (Measured& known = measured_[machine_][kind]; units > 0.5 * known.units) known = {units, seconds};
 }
 
 void Rates::record(const std::vector<Phase>& phases, const PlanWork& work) {
   std::map<WorkKind, double> seconds;  // scenes may have one name
-  for (const Phase& phase : phases) seconds[kindOfPhase(phase.name)] += phase.seconds;
+  for (const Phase& phase : phases) seconds[kindOfPhase(phase.name, work.suite)] += phase.seconds;
   for (const auto& [kind, time] : seconds)
     if (const auto units = work.units.find(kind); units != work.units.end()) record(kind, units->second, time);
 }
@@ -71,7 +71,7 @@ void Rates::save() const {
 
 std::string printWork(const PlanWork& work, const Rates& rates) {
   std::string text = fmt::format(
-      "{} references, {} of them stored; {} raster frames with {:.0f} captured faces; {} blocks of frames "
+      "at most {} references, {} of them stored; {} raster frames with {:.0f} captured faces; {} blocks of frames "
       "for cost\n",
       work.references, work.stored, work.frames, work.captures, work.blocks);
   std::map<std::string, double> seconds;

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "bench/attribution_table.h"
+#include "bench/metric_audit.h"
 #include "bench/recommend.h"
 #include "bench/sections.h"
 #include "bench/tables.h"
@@ -421,6 +422,7 @@ std::string makeReport(const Results& results, const AxisValues& defaults) {
   text += fixedText(shared, defaults);
   for (const Section& section : sections) text += sectionText(section, shared);
   text += attributionTables(results.attribution, defaults);
+  text += metricAuditText(auditMetrics(results.cells));
   return text + circumstances(results.provenance);
 }
 

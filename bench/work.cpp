@@ -27,8 +27,9 @@ class WorkCounter {
       : suite_(suite), scenes_(scenes), plan_(plan), maker_(store, suite.image, suite.reference, {}) {}
 
   PlanWork count() {
+    work_.suite = suite_.name;
     work_.mayRefine = suite_.reference.maxNoise.has_value();
-    work_.units[{"control", ""}] = 1;
+    work_.units[{"control", suite_.name}] = 1;
     for (std::size_t scene = 0; scene < scenes_.size(); ++scene) countScene(scene);
     return work_;
   }
@@ -51,7 +52,7 @@ class WorkCounter {
     for (const PlannedSequence* sequence : sequences)
       if (!sequence->external) countSequence(*sequence);
     pictures_ += static_cast<double>(sequences.size());
-    work_.units[{"intervals", ""}] = pictures_ * megapixels(suite_.image, 1) * kScoring;
+    work_.units[{"intervals", suite_.name}] = pictures_ * megapixels(suite_.image, 1) * kScoring;
   }
 
   void countReferences(std::size_t scene, const std::vector<const PlannedSequence*>& sequences) {
@@ -114,7 +115,8 @@ class WorkCounter {
     if (repetitions == 0) return;
     const double plain = megapixels(suite_.image, 1) + kRender;
     work_.blocks += static_cast<std::size_t>(repetitions);
-    work_.units[{"cost", ""}] += (repetitions + 2) * block * (plain + capturesAFrame) + repetitions * 8 * plain;
+    work_.units[{"cost", suite_.name}] +=
+        (repetitions + 2) * block * (plain + capturesAFrame) + repetitions * 8 * plain;
   }
 
   const Suite& suite_;
@@ -132,9 +134,9 @@ PlanWork computeWork(const Suite& suite, const Scenes& scenes, const Plan& plan,
   return WorkCounter(suite, scenes, plan, store).count();
 }
 
-WorkKind kindOfPhase(const std::string& phase) {
+WorkKind kindOfPhase(const std::string& phase, const std::string& suite) {
   const std::size_t of = phase.find(" of ");
-  return of == std::string::npos ? WorkKind(phase, "") : WorkKind(phase.substr(0, of), phase.substr(of + 4));
+  return of == std::string::npos ? WorkKind(phase, suite) : WorkKind(phase.substr(0, of), phase.substr(of + 4));
 }
 
 }  // namespace pb

@@ -19,10 +19,12 @@
 
 namespace pb {
 
-// A part of a run that has its own rate: "references", "errors", "cost", ... and the scene, "" where it is of all.
+// A part of a run that has its own rate: "references", "errors", "cost", ... and its scene, or its suite where it is of
+// all scenes.
 using WorkKind = std::pair<std::string, std::string>;
 
 struct PlanWork {
+  std::string suite;
   std::size_t references = 0;  // distinct pictures: frames of scenes, at the depths that are asked for
   std::size_t stored = 0;      // of those
   std::size_t frames = 0;      // that the rasteriser renders for errors, of all sequences
@@ -41,10 +43,11 @@ class Rates {
  public:
   Rates(const std::filesystem::path& folder, std::string machine);
 
-  // Of the scene, else the mean over all scenes; nullopt if the kind was never measured here.
+  // Of the scene or suite, else the mean over all of them; nullopt if the kind was never measured here.
   std::optional<double> secondsPerUnit(const WorkKind& kind) const;
 
-  // The last measurement of a kind and scene counts.
+  // The last measurement of a kind and scene counts, unless it was of less than half of the work of the one before:
+  // small runs tell little.
   void record(const WorkKind& kind, double units, double seconds);
   // Phases of a run that did all of its work (not a resumed one).
   void record(const std::vector<Phase>& phases, const PlanWork& work);
@@ -59,8 +62,8 @@ class Rates {
   std::map<std::string, std::map<WorkKind, Measured>> measured_;  // by machine
 };
 
-// "errors of pool" is the kind ("errors", "pool").
-WorkKind kindOfPhase(const std::string& phase);
+// "errors of pool" is the kind ("errors", "pool"), "cost" that of the suite.
+WorkKind kindOfPhase(const std::string& phase, const std::string& suite);
 
 // What will be rendered and how long it should take, for --dry-run and the start of a run.
 std::string printWork(const PlanWork& work, const Rates& rates);

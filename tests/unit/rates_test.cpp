@@ -12,8 +12,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(Phases, NameTheirKindAndScene) {
-  EXPECT_EQ(kindOfPhase("errors of pool of glass"), WorkKind("errors", "pool of glass"));
-  EXPECT_EQ(kindOfPhase("cost"), WorkKind("cost", ""));
+  EXPECT_EQ(kindOfPhase("errors of pool of glass", "quick"), WorkKind("errors", "pool of glass"));
+  EXPECT_EQ(kindOfPhase("cost", "quick"), WorkKind("cost", "quick"));
 }
 
 TEST(Rates, AreThoseOfTheScene_OrTheMeanOfAll) {
@@ -52,6 +52,16 @@ TEST(Rates, OfPhases_CountWhatTheyWereToDo) {
   EXPECT_EQ(rates.secondsPerUnit({"references", "a"}), std::nullopt);  // there were none to trace
 }
 
+TEST(Rates, OfSmallRuns_DontReplaceThoseOfLargeOnes) {
+  const TemporaryFolder folder;
+  Rates rates(folder.path(), "here");
+  rates.record({"cost", "quick"}, 10, 20);
+  rates.record({"cost", "quick"}, 1, 9);
+  EXPECT_EQ(rates.secondsPerUnit({"cost", "quick"}), 2.0);
+  rates.record({"cost", "quick"}, 8, 24);
+  EXPECT_EQ(rates.secondsPerUnit({"cost", "quick"}), 3.0);
+}
+
 TEST(PrintedWork, SaysHowLongItTakesAndWhatIsNotKnown) {
   const TemporaryFolder folder;
   Rates rates(folder.path(), "here");
@@ -60,7 +70,7 @@ TEST(PrintedWork, SaysHowLongItTakesAndWhatIsNotKnown) {
   work.stored = 6;
   work.units[{"errors", "a"}] = 30;
   work.units[{"cost", ""}] = 1;
-  EXPECT_THAT(printWork(work, rates), HasSubstr("8 references, 6 of them stored"));
+  EXPECT_THAT(printWork(work, rates), HasSubstr("at most 8 references, 6 of them stored"));
   EXPECT_THAT(printWork(work, rates), HasSubstr("no rates measured yet"));
   rates.record({"errors", "a"}, 1, 2);
   EXPECT_THAT(printWork(work, rates),

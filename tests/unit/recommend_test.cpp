@@ -175,6 +175,15 @@ TEST(Recommend, Frames_CountByTheirMeanOrTheirWorst) {
   EXPECT_DOUBLE_EQ(loss.high, 0.33);
 }
 
+TEST(Recommend, FramesWithoutAnInterval_TakeThatOfTheOthers) {
+  Results results = resultsOf({{"a", {{"64", "static", 0.1, 0.01, 1.0}, {"64", "static", 0.3, 0.03, 1.0}}}});
+  results.cells[1].frame = 1;
+  results.cells[0].maskIntervals.clear();
+  const Estimate loss = candidatesOf(results, {}).candidates.front().loss;
+  EXPECT_DOUBLE_EQ(loss.value, 0.2);
+  EXPECT_DOUBLE_EQ(loss.high, 0.23);
+}
+
 TEST(Steps, GoToTheNearestNumbersOfOneAxis) {
   const Recommendation answer = recommend(oneScene(), maxError(0.25));  // 128, every-frame
   ASSERT_THAT(answer.steps, SizeIs(3));

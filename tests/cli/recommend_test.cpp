@@ -1,0 +1,79 @@
+// Commands that decide: init, the plan, recommend, --until-decided.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/files.h"
+#include "tests/cli/program.h"
+#include "tests/temporary_folder.h"
+
+namespace pb {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kSmall = R"(
+schema = 1
+name = "small"
+image = { size = [32, 18], samples = 1 }
+cost = { repetitions = 1 }
+[[scene]]
+use = "builtin:mirrors?count=2"
+[grid]
+resolution = [8, 16]
+)";
+
+TEST(Init, WritesASuiteThatRuns) {
+  const TemporaryFolder folder;
+  const std::string suite = folder.file("mine.toml");
+  const ProgramResult written = runProgram({"init", "builtin:planar-floor", "-o", suite});
+  ASSERT_EQ(written.exitCode, 0) << written.err;
+  EXPECT_THAT(written.out, HasSubstr("1 mirror (1 flat)"));
+  EXPECT_EQ(readFile(suite), written.out);
+  const ProgramResult run = runProgram({"run", suite, "--dry-run", "--store", folder.file("store")});
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("no rates measured yet"));
+}
+
+TEST(Init, LeavesAnExistingFileAsItIs) {
+  const TemporaryFolder folder;
+  const std::string suite = folder.file("mine.toml");
+  writeFileAtomically(suite, "mine");
+  const ProgramResult result = runProgram({"init", "builtin:glass", "-o", suite});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_THAT(result.err, HasSubstr("exists"));
+  EXPECT_EQ(readFile(suite), "mine");
+}
+
+TEST(Recommend, AnswersFromARunAndNamesTheCommandThatRepeatsIt) {
+  const TemporaryFolder folder;
+  const std::string suite = folder.file("suite.toml"), out = folder.file("out"), store = folder.file("store");
+  writeFileAtomically(suite, kSmall);
+  const ProgramResult run = runProgram({"run", suite, "--out", out, "--store", store});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const ProgramResult answer = runProgram({"recommend", out, "--max-error", "flip_hdr=1"});
+  EXPECT_EQ(answer.exitCode, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("Cheapest: resolution="));
+  EXPECT_THAT(answer.out, HasSubstr("probebench run " + suite + " --only ' resolution="));
+  EXPECT_EQ(runProgram({"recommend", out, "--max-error", "flip_hdr=0"}).exitCode, 1);
+  EXPECT_EQ(runProgram({"recommend", out}).exitCode, 2);
+  EXPECT_EQ(runProgram({"recommend", out, "--max-error", "flip=1"}).exitCode, 2);
+  EXPECT_EQ(runProgram({"recommend", folder.file("nothing"), "--budget-ms", "1"}).exitCode, 2);
+  // The rates of that run tell how long the next one takes.
+  const ProgramResult plan = runProgram({"run", suite, "--dry-run", "--store", store});
+  EXPECT_THAT(plan.out, HasSubstr("should take about"));
+  EXPECT_THAT(plan.out, Not(HasSubstr("no rates")));
+}
+
+TEST(UntilDecided, WithoutNoise_IsDecidedAtOnce) {
+  const TemporaryFolder folder;
+  const std::string suite = folder.file("suite.toml");
+  writeFileAtomically(suite, kSmall);
+  const ProgramResult run = runProgram({"run", suite, "--out", folder.file("out"), "--store", folder.file("store"),
+                                        "--no-cost", "--until-decided", "--budget-s", "1"});
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("all 1 pairs of cells are decided"));
+}
+
+}  // namespace
+}  // namespace pb
