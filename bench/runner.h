@@ -38,7 +38,7 @@ struct RunContext {
 struct RunOutcome {
   std::vector<CellResult> cells;  // in the plan's order
   std::vector<Attribution> attribution;
-  std::string benchmarkJson;      // empty if no cost was measured
+  std::string benchmarkJson;  // empty if no cost was measured
   // External techniques that could not take a scene's job: "external NAME on SCENE" and why, one a pair.
   std::vector<std::pair<std::string, std::string>> skipped;
   std::vector<std::string> noisyReferences;  // those that missed max_noise: one sentence each

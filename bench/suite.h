@@ -67,8 +67,8 @@ struct Suite {
   PictureSettings pictures;
   Technique technique;  // base values of every axis
   std::vector<SuiteScene> scenes;
-  std::vector<GridAxis> grid;                // in the order of the axis table
-  std::vector<ExternalTechnique> externals;  // of other programs, each once on every scene
+  std::vector<GridAxis> grid;                      // in the order of the axis table
+  std::vector<ExternalTechnique> externals;        // of other programs, each once on every scene
   std::optional<AttributionSettings> attribution;  // none: not wanted
   Tolerances tolerance;
   Tolerances warnTolerance;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/instance_map.h"
 #include "bench/bounce_depth.h"
+#include "bench/instance_map.h"
 #include "bench/interrupt.h"
 #include "bench/mask.h"
 
