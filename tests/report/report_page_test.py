@@ -324,6 +324,20 @@ class ReportPage(unittest.TestCase):
                     "for (const type of ['mousemove', 'mousedown', 'mouseup', 'click']) arguments[0].dispatchEvent(new MouseEvent(type, {bubbles: true, clientX: box.x + box.width / 2, clientY: box.y + box.height / 2}));", point)
         page.wait(lambda: page.open_cell() != before, "a click on a point opens nothing")
 
+    def test_the_waterfall_adds_up_to_the_error(self):
+        (self.folder / "attribution.toml").write_text(SUITE % "last" + "[attribution]\nresolution = 32\nspp = 2\n")
+        self.probebench("run", self.folder / "attribution.toml", "--out", self.folder / "attribution", "--store", self.folder / "store",
+                        "--only", "mirrors.*resolution=8 .*bounces=1", "--no-cost")
+        attribution = json.loads((self.folder / "attribution/results.json").read_text())["attribution"][0]
+        page = self.open(report=self.folder / "attribution/report.html")
+        shown = page.script("""
+          const figure = [...document.querySelectorAll("#errors figure")].find((f) => f.textContent.includes("Where the error comes from"));
+          return [...figure.querySelectorAll(".mark-text.role-mark text")].map((t) => t.textContent)""")
+        values = [step["mask_metrics"]["flip_hdr"] for step in attribution["steps"]]
+        changes = [b - a for a, b in zip([0] + values, values)]
+        signs = [("+" if c > 0 else "−" if c < 0 else "") + significant(abs(c)) for c in changes]
+        self.assertEqual(shown, signs + [significant(values[-1])])
+
     # --- The page itself
 
     def test_nothing_is_fetched(self):
