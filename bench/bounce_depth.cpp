@@ -43,13 +43,16 @@ int BounceDepth::advance(const Snapshot& given) {
   hits_.clear();
   for (const Probe& probe : snapshot.probes) hits_.push_back(hitsAt(snapshot, probe));
   if (technique_.probes == ProbeUse::dynamic) {
+    followProbes(snapshot);
     const std::vector<ProbeFace> due = dueFacesOf(snapshot);
     depths_.resize(snapshot.probes.size());
-    shown_.assign(snapshot.probes.size(), history_.frame > 0);
+    shown_ = isComplete_;
+    shown_.resize(snapshot.probes.size(), false);
     if (technique_.feedback == Feedback::sky)
       for (const ProbeFace& f : due) shown_[indexOf(f.probe)] = false;
     for (int b = 0; b < technique_.bounces; ++b) capture(due);
     pb::advance(history_, due, snapshot);
+    isComplete_.assign(snapshot.probes.size(), true);
   }
   int deepest = 1;
   for (std::size_t probe = 0; probe < hits_.size(); ++probe)
@@ -61,6 +64,16 @@ int BounceDepth::hitsAt(const Snapshot& snapshot, const Probe& probe) {
   const bool isCrossed = std::ranges::any_of(
       probe.owners, [&](int owner) { return isSolidGlass(snapshot.materialOf(snapshot.instances[indexOf(owner)])); });
   return isCrossed ? 2 : 1;
+}
+
+// Those with other owners than any in the frame before start anew.
+void BounceDepth::followProbes(const Snapshot& snapshot) {
+  const std::optional<std::vector<int>> before = probes_.follow(snapshot);
+  if (!before) return;
+  reorder(history_, *before);
+  depths_ = reordered(std::move(depths_), *before, {});
+  resolutions_ = reordered(std::move(resolutions_), *before, 0);
+  isComplete_ = reordered(std::move(isComplete_), *before, false);
 }
 
 // Probes whose resolution changes are due with all of their faces.

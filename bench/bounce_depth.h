@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raster/probe_layout.h"
+#include "raster/probe_owners.h"
 #include "raster/refresh.h"
 #include "raster/technique.h"
 #include "scenes/snapshot.h"
@@ -32,6 +33,7 @@ class BounceDepth {
   // A surface's hits before its map is seen: 2 of what is looked through, in and out.
   static int hitsAt(const Snapshot& snapshot, const Probe& probe);
 
+  void followProbes(const Snapshot& snapshot);
   std::vector<ProbeFace> dueFacesOf(const Snapshot& snapshot);
   void capture(const std::vector<ProbeFace>& due);
   void captureProbes(const std::vector<ProbeFace>& faces);
@@ -41,9 +43,11 @@ class BounceDepth {
   Technique technique_;
   int heightPx_;
   ProbeLayout layout_;
+  ProbeFollower probes_;
   RefreshHistory history_;
   std::vector<int> resolutions_;  // by probe
   std::vector<int> hits_;         // by probe: hitsAt()
+  std::vector<bool> isComplete_;  // by probe: its map was captured in an earlier frame
   std::vector<bool> shown_;       // by probe: whether lookups see its map
   ByProbeAndFace<int> depths_;    // of what the maps hold
 };

@@ -15,6 +15,7 @@
 #include "bench/statistics.h"
 #include "raster/captured_faces.h"
 #include "raster/probe_layout.h"
+#include "raster/probe_owners.h"
 #include "raster/refresh.h"
 #include "scenes/error.h"
 
@@ -287,12 +288,15 @@ RenderCount modelRenders(const Technique& technique, const Snapshots& snapshots)
   double faces = 0;
   // The first frame captures everything; the second pass over the block is the one that repeats for ever.
   ProbeLayout layout(technique);
+  ProbeFollower probes;
   const Snapshot& first = layout.apply(*snapshots[0]);
+  probes.follow(first);
   advance(history, dueFaces(technique.refresh, history, first), first);
   for (int pass = 0; pass < 2; ++pass) {
     faces = 0;
     for (std::size_t i = 1; i < snapshots.size(); ++i) {
       const Snapshot& snapshot = layout.apply(*snapshots[i]);
+      if (const auto before = probes.follow(snapshot)) reorder(history, *before);
       const std::vector<ProbeFace> due = dueFaces(technique.refresh, history, snapshot);
       faces += static_cast<double>(due.size());
       advance(history, due, snapshot);

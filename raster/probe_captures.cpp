@@ -7,7 +7,6 @@
 #include "raster/captured_faces.h"
 #include "raster/frame_passes.h"
 #include "raster/lookup.h"
-#include "raster/probe_owners.h"
 #include "raster/probe_resolution.h"
 #include "raster/refresh/policies.h"
 #include "scenes/error.h"
@@ -61,25 +60,21 @@ void ProbeCaptures::beginFrame(const Snapshot& snapshot) {
 
 // Probes that are joined with others, or part from them, start anew: no map fits where they stand now.
 void ProbeCaptures::followProbes() {
-  const std::vector<std::vector<int>> owners = ownersOfProbes(*snapshot_);
-  const std::vector<int> before = probesBefore(owners_, owners);
-  const bool areTheSame = owners == owners_;
-  owners_ = owners;
-  if (history_.frame == 0 || areTheSame) return;
-  reorder(history_, before);
-  filled_ = reordered(std::move(filled_), before, std::size_t{0});
-  isGiven_ = reordered(std::move(isGiven_), before, false);
-  isComplete_ = reordered(std::move(isComplete_), before, false);
+  const std::optional<std::vector<int>> before = probes_.follow(*snapshot_);
+  if (!before) return;
+  reorder(history_, *before);
+  filled_ = reordered(std::move(filled_), *before, std::size_t{0});
+  isGiven_ = reordered(std::move(isGiven_), *before, false);
+  isComplete_ = reordered(std::move(isComplete_), *before, false);
   if (!maps_) return;
-  checkProbesFit(device_.limits, technique_, static_cast<int>(owners.size()), levelFilter(technique_, *snapshot_),
+  checkProbesFit(device_.limits, technique_, static_cast<int>(before->size()), levelFilter(technique_, *snapshot_),
                  widthPx_, heightPx_, samplesPerAxis_);
   const std::vector<int> wanted = probeResolutions(technique_, *snapshot_, heightPx_);
-  std::vector<int> resolutions = reordered(std::move(resolutions_), before, 0);
-  for (std::size_t probe = 0; probe < before.size(); ++probe)
-    if (before[probe] == kNewProbe) resolutions[probe] = wanted[probe];
-  resolutions_ = std::move(resolutions);
-  maps_->reorder(before, resolutions_);
-  if (iterations_) iterations_->reorder(before);
+  resolutions_ = reordered(std::move(resolutions_), *before, 0);
+  for (std::size_t probe = 0; probe < wanted.size(); ++probe)
+    if ((*before)[probe] == kNewProbe) resolutions_[probe] = wanted[probe];
+  maps_->reorder(*before, resolutions_);
+  if (iterations_) iterations_->reorder(*before);
 }
 
 void ProbeCaptures::allocate() {

@@ -9,6 +9,7 @@
 #include "raster/bounce_iterations.h"
 #include "raster/frame_work.h"
 #include "raster/probe_maps.h"
+#include "raster/probe_owners.h"
 #include "raster/refresh.h"
 #include "raster/scene_pass.h"
 
@@ -69,10 +70,10 @@ class ProbeCaptures {
   std::optional<ProbeMaps> maps_;
   std::optional<BounceIterations> iterations_;
   RefreshHistory history_;
-  std::map<int, GivenProbe> given_;       // for the next frame, by probe
-  std::vector<std::vector<int>> owners_;  // by probe; see raster/probe_owners.h
-  std::vector<bool> isGiven_;             // by probe: its map, in its resolution
-  std::vector<bool> isComplete_;          // by probe: its map has been captured
+  std::map<int, GivenProbe> given_;  // for the next frame, by probe
+  ProbeFollower probes_;
+  std::vector<bool> isGiven_;        // by probe: its map, in its resolution
+  std::vector<bool> isComplete_;     // by probe: its map has been captured
   std::vector<std::size_t> filled_;  // by probe: 1 + the environment that faces show which are never captured; 0: none
   std::vector<float> nears_;         // by probe, metres
   // Of this frame.

@@ -1,6 +1,7 @@
 #include "raster/probe_owners.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pb {
 
@@ -17,6 +18,12 @@ std::vector<int> probesBefore(const std::vector<std::vector<int>>& before, const
     probes.push_back(found == before.end() ? kNewProbe : static_cast<int>(found - before.begin()));
   }
   return probes;
+}
+
+std::optional<std::vector<int>> ProbeFollower::follow(const Snapshot& snapshot) {
+  const std::vector<std::vector<int>> before = std::exchange(owners_, ownersOfProbes(snapshot));
+  if (before.empty() || before == owners_) return std::nullopt;
+  return probesBefore(before, owners_);
 }
 
 }  // namespace pb

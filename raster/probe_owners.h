@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "scenes/snapshot.h"
@@ -27,5 +27,15 @@ std::vector<T> reordered(std::vector<T> byProbe, const std::vector<int>& before,
   }
   return result;
 }
+
+// Follows the probes of a sequence.
+class ProbeFollower {
+ public:
+  // By probe of the frame: the one of the frame before; nothing if they are the same, and in the first frame.
+  std::optional<std::vector<int>> follow(const Snapshot& snapshot);
+
+ private:
+  std::vector<std::vector<int>> owners_;  // by probe, of the frame before
+};
 
 }  // namespace pb

@@ -92,6 +92,21 @@ TEST(BounceDepth, OfGlass_CountsBothOfItsSides) {
               ElementsAre(2));
 }
 
+// Three mirrors captured twice, at first: 1 + 2. Then two of them share a new probe, whose captures see the third one's
+// map, 2 deep: 1 + 3. Then both have new probes of their own, which see that and, in the second iteration, each other.
+TEST(BounceDepth, OfProbesThatAreJoinedAndPart_StartsAnewForThemOnly) {
+  Technique technique = techniqueOf(2, kPrevious, kSimultaneous, "static");
+  technique.sharing = parseSpec("distance?metres=0.5");
+  const Snapshot apart = makeMirrors(3);
+  Snapshot joined = apart;
+  joined.probes[0].position.x = 0.8f;
+  BounceDepth depth(technique, 64);
+  EXPECT_EQ(depth.advance(apart), 3);
+  EXPECT_EQ(depth.advance(joined), 4);
+  EXPECT_EQ(depth.advance(joined), 4);
+  EXPECT_EQ(depth.advance(apart), 5);
+}
+
 TEST(BounceDepth, WithoutCaptures_IsOne) {
   Technique technique;
   technique.probes = ProbeUse::environmentOnly;
