@@ -91,7 +91,9 @@ std::string half(const std::string& text) { return text.substr(0, text.size() / 
 std::string empty(const std::string&) { return ""; }
 std::string foreign(const std::string&) { return R"({"benchmarks": [], "context": {}})"; }
 std::string noJson(const std::string&) { return "scene,camera,frame\n"; }
-std::string ofAnotherVersion(std::string text) { return text.replace(text.find("_version\": 1"), 12, "_version\": 7"); }
+std::string ofAnotherVersion(const std::string& text) {
+  return std::string(text).replace(text.find("_version\": 1"), 12, "_version\": 7");
+}
 std::string withoutProvenance(const std::string& text) {
   auto document = nlohmann::ordered_json::parse(text);
   document.erase("provenance");
@@ -105,8 +107,10 @@ const DamagedText kDamages[] = {{"half", half, "is truncated"},
                                 {"another_version", ofAnotherVersion, "_version 7, this version of probebench reads 1"},
                                 {"without_provenance", withoutProvenance, "breaks its schema"}};
 
-INSTANTIATE_TEST_SUITE_P(All, DamagedRun, testing::ValuesIn(kDamages), [](const auto& t) { return t.param.name; });
-INSTANTIATE_TEST_SUITE_P(All, DamagedBaseline, testing::ValuesIn(kDamages), [](const auto& t) { return t.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, DamagedRun, testing::ValuesIn(kDamages),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, DamagedBaseline, testing::ValuesIn(kDamages),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(DamagedRunDirectory, ThatHoldsAFolderInPlaceOfResults_IsRefused) {
   const Workplace workplace;
