@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "bench/metrics/vector_clones.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -15,11 +16,10 @@ bool isFinite(const glm::vec3& value) {
 }
 
 // Without a branch per value, because every metric asks this of every image.
-bool allFinite(const Image& image) {
+PB_VECTOR_CLONES bool allFinite(const float* values, std::size_t count) {
   constexpr std::uint32_t kExponentMask = 0x7f800000;  // all ones for NaN and infinities
-  const float* const values = &image[0].x;
   std::uint32_t anyBad = 0;
-  for (std::size_t i = 0; i < 3 * image.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const auto bits = std::bit_cast<std::uint32_t>(values[i]);
     anyBad |= (bits & kExponentMask) == kExponentMask ? 1u : 0u;
   }
@@ -30,7 +30,7 @@ bool allFinite(const Image& image) {
 
 void requireFinite(const Image& image, const char* name) {
   if (image.empty()) throwInputError("images need at least one pixel, the {} image has none", name);
-  if (allFinite(image)) return;
+  if (allFinite(&image[0].x, 3 * image.size())) return;
   const auto bad = std::find_if_not(image.begin(), image.end(), isFinite);
   const auto index = bad - image.begin();
   throwInputError("pixel values must be finite, got ({}, {}, {}) at x = {}, y = {} of the {} image", bad->x, bad->y,

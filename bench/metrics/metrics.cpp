@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "bench/metrics/checks.h"
+#include "bench/metrics/error_sums.h"
 #include "bench/metrics/flip.h"
 #include "bench/metrics/ssim.h"
+#include "bench/metrics/vector_clones.h"
 #include "scenes/image_io.h"
 
 namespace pb {
@@ -23,22 +25,42 @@ Image mapped(const Image& image, Function function) {
 
 Image decoded(const Image& encoded) { return mapped(encoded, linearFromSrgb); }
 
-Image displayed(const Image& image, const MetricsSettings& settings) {
-  if (settings.srgb) return image;
-  const auto gain = static_cast<float>(std::exp2(settings.exposure));
-  if (!settings.clampForDisplay) return mapped(image, [gain](float value) { return value * gain; });
-  return mapped(image, [gain](float value) { return std::clamp(value * gain, 0.0f, 1.0f); });
+bool changesOnDisplay(const MetricsSettings& settings) {
+  return !settings.srgb && (settings.exposure != 0 || settings.clampForDisplay);
 }
 
-// The values that PSNR and SSIM see, and those that LDR-FLIP sees: the same unless they must be decoded first.
-struct DisplayedImage {
-  DisplayedImage(const Image& image, const MetricsSettings& settings) : values(displayed(image, settings)) {
-    if (settings.srgb) decodedValues = decoded(image);
+PB_VECTOR_CLONES void displayValues(const float* values, std::size_t count, float gain, bool clamp, float* out) {
+  if (!clamp) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = values[i] * gain;
+    return;
   }
-  const Image& linear() const { return decodedValues ? *decodedValues : values; }
+  for (std::size_t i = 0; i < count; ++i) {
+    const float value = values[i] * gain, atLeast0 = value > 0.0f ? value : 0.0f;
+    out[i] = atLeast0 < 1.0f ? atLeast0 : 1.0f;
+  }
+}
 
-  Image values;
-  std::optional<Image> decodedValues;
+Image displayed(const Image& image, const MetricsSettings& settings) {
+  Image result(image.width(), image.height());
+  const auto gain = static_cast<float>(std::exp2(settings.exposure));
+  displayValues(&image[0].x, 3 * image.size(), gain, settings.clampForDisplay, &result[0].x);
+  return result;
+}
+
+// The values that PSNR and SSIM see, and those that LDR-FLIP sees: the same unless they must be decoded first. The
+// image must outlive the object.
+class DisplayedImage {
+ public:
+  DisplayedImage(const Image& image, const MetricsSettings& settings) : stored_(image) {
+    if (changesOnDisplay(settings)) displayed_ = displayed(image, settings);
+    if (settings.srgb) decoded_ = decoded(image);
+  }
+  const Image& values() const { return displayed_ ? *displayed_ : stored_; }
+  const Image& linear() const { return decoded_ ? *decoded_ : values(); }
+
+ private:
+  const Image& stored_;
+  std::optional<Image> displayed_, decoded_;
 };
 
 bool isEmpty(const Mask& mask) {
@@ -51,17 +73,19 @@ struct PairMaps {
   const Image& test;
   const Image& displayedReference;
   const Image& displayedTest;
-  SsimMaps ssim;
+  ssim::Scores ssim;
   FlipResult flipLdr;
   std::optional<FlipResult> flipHdr;
 };
 
 Metrics metricsOver(const PairMaps& maps, const Mask* mask) {
   Metrics metrics;
-  metrics.sums = computeErrorSums(maps.reference, maps.test, mask);
-  metrics.sums.psnr = computeErrorSums(maps.displayedReference, maps.displayedTest, mask).psnr;
-  metrics.ssim = averageSsim(maps.ssim, mask);
-  if (!mask) metrics.msSsim = computeMsSsim(maps.displayedReference, maps.displayedTest);
+  metrics.sums = errorSumsOf(maps.reference, maps.test, mask);
+  if (&maps.displayedReference != &maps.reference) {
+    metrics.sums.psnr = psnrOf(maps.displayedReference, maps.displayedTest, mask);
+  }
+  metrics.ssim = mask ? maps.ssim.masked : maps.ssim.whole;
+  if (!mask) metrics.msSsim = maps.ssim.msSsim;
   metrics.flipLdr = poolFlip(maps.flipLdr.map, mask);
   metrics.ppd = maps.flipLdr.ppd;
   if (maps.flipHdr) {
@@ -82,6 +106,8 @@ class PreparedReference {
       : settings_(settings),
         reference_(image),
         displayed_(image, settings),
+        ssim_(displayed_.values(), ssim::Scales::all,
+              reuse == flip::Reuse::never ? ssim::Reuse::never : ssim::Reuse::ifSmall),
         flipLdr_(displayed_.linear(), flip::Mode::ldr, settings.flip, reuse) {
     if (!settings.srgb) flipHdr_.emplace(reference_, flip::Mode::hdr, settings.flip, reuse);
   }
@@ -94,6 +120,7 @@ class PreparedReference {
   MetricsSettings settings_;
   Image reference_;
   DisplayedImage displayed_;
+  ssim::SsimReference ssim_;
   flip::FlipReference flipLdr_;  // both refer to the images above
   std::optional<flip::FlipReference> flipHdr_;
 };
@@ -104,9 +131,9 @@ MetricsResult PreparedReference::compare(const Image& test, const Mask* mask) co
   const DisplayedImage displayedTest(test, settings_);
   PairMaps maps{.reference = reference_,
                 .test = test,
-                .displayedReference = displayed_.values,
-                .displayedTest = displayedTest.values,
-                .ssim = computeSsimMaps(displayed_.values, displayedTest.values),
+                .displayedReference = displayed_.values(),
+                .displayedTest = displayedTest.values(),
+                .ssim = ssim_.compare(displayedTest.values(), mask),
                 .flipLdr = flipLdr_.compare(displayedTest.linear()),
                 .flipHdr = std::nullopt};
   if (flipHdr_) maps.flipHdr = flipHdr_->compare(test);

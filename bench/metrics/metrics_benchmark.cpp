@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "bench/metrics/error_sums.h"
 #include "bench/metrics/metrics.h"
+#include "bench/metrics/ssim.h"
 
 namespace pb {
 namespace {
@@ -13,9 +15,9 @@ constexpr int kWidth = 640, kHeight = 360;
 
 // A sky-like gradient with structure at several scales and luminances from 1e-3 to 1e3, so that HDR-FLIP picks as many
 // exposures as for a typical picture of a scene under the sun.
-Image scenePicture(float shift) {
-  Image image(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
+Image scenePicture(float shift, int height = kHeight) {
+  Image image(kWidth, height);
+  for (int y = 0; y < height; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const float u = (static_cast<float>(x) + shift) / kWidth, v = static_cast<float>(y) / kHeight;
       const float detail = std::sin(40.0f * u) * std::cos(31.0f * v) + 0.3f * std::sin(211.0f * u + 97.0f * v);
@@ -60,6 +62,17 @@ void msSsim(benchmark::State& state) {
   measure(state, [] { return computeMsSsim(reference, test); });
 }
 BENCHMARK(msSsim)->Unit(benchmark::kMillisecond);
+
+// All but FLIP, of one of many test images: error sums, SSIM and MS-SSIM, the reference's side kept.
+void sumsAndSsimOfPreparedReference(benchmark::State& state) {
+  static const Pair cropped{.reference = scenePicture(0, 352), .test = scenePicture(0.7f, 352)};
+  static const ssim::SsimReference reference(cropped.reference, ssim::Scales::all, ssim::Reuse::ifSmall);
+  measure(state, [] {
+    const ErrorSums sums = errorSumsOf(cropped.reference, cropped.test, nullptr);
+    return sums.mse + reference.compare(cropped.test, nullptr).msSsim.value();
+  });
+}
+BENCHMARK(sumsAndSsimOfPreparedReference)->Unit(benchmark::kMillisecond);
 
 void flipLdr(benchmark::State& state) {
   measure(state, [] { return computeFlipLdr(pair().reference, pair().test); });

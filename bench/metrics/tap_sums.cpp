@@ -58,10 +58,6 @@ PB_VECTOR_CLONES void sumEvenTaps(std::span<const TapPair<float>> taps, int widt
   sumTaps(taps, width, out, [](float before, float after, int) { return before + after; });
 }
 
-PB_VECTOR_CLONES void sumEvenTaps(std::span<const TapPair<double>> taps, int width, double* out) {
-  sumTaps(taps, width, out, [](double before, double after, int) { return before + after; });
-}
-
 PB_VECTOR_CLONES void sumOddTaps(std::span<const TapPair<float>> taps, int width, float* out) {
   sumTaps(taps, width, out, [](float before, float after, int) { return before - after; });
 }

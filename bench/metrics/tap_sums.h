@@ -1,4 +1,4 @@
-// Weighted sums over symmetric pairs of filter taps: the inner loop of every filter of FLIP and SSIM. The taps of a
+// Weighted sums over symmetric pairs of filter taps: the inner loop of every filter of FLIP. The taps of a
 // vertical pass are rows of an image, those of a horizontal pass one row at several offsets.
 #pragma once
 
@@ -15,7 +15,6 @@ struct TapPair {
 
 // out[x] = sum over taps of weight * (before[x] + after[x]), in the order of the taps, of which there is at least one.
 void sumEvenTaps(std::span<const TapPair<float>> taps, int width, float* out);
-void sumEvenTaps(std::span<const TapPair<double>> taps, int width, double* out);
 
 // out[x] = sum over taps of weight * (before[x] - after[x])
 void sumOddTaps(std::span<const TapPair<float>> taps, int width, float* out);
