@@ -43,19 +43,21 @@ struct Sums {
   }
 };
 
-// Weights are 1 inside of the mask and 0 outside.
+// Weights are 1 inside of the mask and 0 outside. Both quotients come from one division, the slowest operation here.
 PB_VECTOR_CLONES void addErrors(const float* reference, const float* test, const float* weights, std::size_t count,
                                 LaneSums& sums) {
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
     const double r = double{reference[i]}, t = double{test[i]}, weight = double{weights[i]};
     const double d = (t - r) * weight, size = std::fabs(d), square = d * d;
+    const double squareScale = r * r + kRelativeEpsilon, scale = std::fabs(r) + std::fabs(t) + kRelativeEpsilon;
+    const double inverse = 1.0 / (squareScale * scale);
     sums.signedError[i] += d;
     sums.squared[i] += square;
     sums.absolute[i] += size;
     sums.largest[i] = sums.largest[i] > size ? sums.largest[i] : size;
-    sums.relativeSquared[i] += square / (r * r + kRelativeEpsilon);
-    sums.symmetric[i] += size / (std::fabs(r) + std::fabs(t) + kRelativeEpsilon);
+    sums.relativeSquared[i] += square * (scale * inverse);
+    sums.symmetric[i] += size * (squareScale * inverse);
   }
 }
 

@@ -10,9 +10,12 @@
 namespace pb::ssim {
 
 inline constexpr int kRadius = 5;  // of the window
-inline constexpr int kTileWidth = 128, kTileRows = 32;
-// Columns of a plane under a tile of the map: with the window's margins, and a multiple of every vector's length.
-inline constexpr int kInputWidth = kTileWidth + 16;
+inline constexpr int kTileWidth = 128, kTileRows = 64;
+// Columns are worked on in blocks, multiples of every vector's length. A tile of the map needs one block more of the
+// plane than it has itself, for the margins of the window.
+inline constexpr int kBlock = 16;
+inline constexpr int kInputWidth = kTileWidth + kBlock;
+static_assert(2 * kRadius <= kBlock);
 
 // Planes of the first scale, luma the last; further scales have three.
 inline constexpr std::size_t kLumaPlane = 3, kFirstPlanes = 4;

@@ -44,31 +44,32 @@ PB_INLINE double windowSum(const double* centre, const Window& window) {
          window.w4 * (centre[-4 * step] + centre[4 * step]) + window.w5 * (centre[-5 * step] + centre[5 * step]);
 }
 
-PB_VECTOR_CLONES void sumColumns(const double* firstRow, double* out) {
+PB_VECTOR_CLONES void sumColumns(const double* firstRow, int blocks, double* out) {
   const Window window = kWindow;
   const double* const centre = firstRow + kRadius * kInputWidth;
 #pragma GCC ivdep
-  for (int i = 0; i < kInputWidth; ++i) out[i] = windowSum<kInputWidth>(centre + i, window);
+  for (int i = 0; i < kBlock * blocks; ++i) out[i] = windowSum<kInputWidth>(centre + i, window);
 }
 
-PB_VECTOR_CLONES void squareRow(const float* x, double* value, double* square) {
+PB_VECTOR_CLONES void squareRow(const float* x, int blocks, double* value, double* square) {
 #pragma GCC ivdep
-  for (int i = 0; i < kInputWidth; ++i) {
+  for (int i = 0; i < kBlock * blocks; ++i) {
     const double v = double{x[i]};
     value[i] = v;
     square[i] = v * v;
   }
 }
 
-PB_VECTOR_CLONES void multiplyRow(const float* x, const float* y, double* product) {
+PB_VECTOR_CLONES void multiplyRow(const float* x, const float* y, int blocks, double* product) {
 #pragma GCC ivdep
-  for (int i = 0; i < kInputWidth; ++i) product[i] = double{x[i]} * double{y[i]};
+  for (int i = 0; i < kBlock * blocks; ++i) product[i] = double{x[i]} * double{y[i]};
 }
 
-PB_VECTOR_CLONES void momentsRow(const double* values, const double* squares, double* mean, double* variance) {
+PB_VECTOR_CLONES void momentsRow(const double* values, const double* squares, int blocks, double* mean,
+                                 double* variance) {
   const Window window = kWindow;
 #pragma GCC ivdep
-  for (int i = 0; i < kTileWidth; ++i) {
+  for (int i = 0; i < kBlock * blocks; ++i) {
     const double m = windowSum<1>(values + kRadius + i, window);
     mean[i] = m;
     variance[i] = windowSum<1>(squares + kRadius + i, window) - m * m;
@@ -85,11 +86,11 @@ struct MapSums {
 };
 
 // SSIM of a row, and both factors' sums by column. One division serves the two quotients.
-PB_VECTOR_CLONES void similarityRow(const Columns& columns, const double* meanX, const double* varianceX, double* ssim,
-                                    double* ssimSums, double* structureSums) {
+PB_VECTOR_CLONES void similarityRow(const Columns& columns, const double* meanX, const double* varianceX, int blocks,
+                                    double* ssim, double* ssimSums, double* structureSums) {
   const Window window = kWindow;
 #pragma GCC ivdep
-  for (int i = 0; i < kTileWidth; ++i) {
+  for (int i = 0; i < kBlock * blocks; ++i) {
     const double mx = meanX[i], my = windowSum<1>(columns.values + kRadius + i, window);
     const double varianceY = windowSum<1>(columns.squares + kRadius + i, window) - my * my;
     const double covariance = windowSum<1>(columns.products + kRadius + i, window) - mx * my;
@@ -103,10 +104,12 @@ PB_VECTOR_CLONES void similarityRow(const Columns& columns, const double* meanX,
   }
 }
 
-PB_VECTOR_CLONES void addWeighted(const double* values, const float* weights, double* sums) {
+PB_VECTOR_CLONES void addWeighted(const double* values, const float* weights, int blocks, double* sums) {
 #pragma GCC ivdep
-  for (int i = 0; i < kTileWidth; ++i) sums[i] += values[i] * double{weights[i]};
+  for (int i = 0; i < kBlock * blocks; ++i) sums[i] += values[i] * double{weights[i]};
 }
+
+int blocksOf(const Tile& tile) { return (tile.width + kBlock - 1) / kBlock; }
 
 double sumFirst(const RowSums& sums, int width) {
   double total = 0;
@@ -117,38 +120,40 @@ double sumFirst(const RowSums& sums, int width) {
 }  // namespace
 
 void computeReferenceTile(const PaddedPlane& reference, const Tile& tile, ReferenceTile& out) {
+  const int blocks = blocksOf(tile), inputBlocks = blocks + 1;
   alignas(64) InputRows values, squares;
   for (int row = 0; row < tile.rows + 2 * kRadius; ++row) {
-    squareRow(&reference.values(tile.x, tile.y + row), values[row], squares[row]);
+    squareRow(&reference.values(tile.x, tile.y + row), inputBlocks, values[row], squares[row]);
   }
   for (int row = 0; row < tile.rows; ++row) {
     alignas(64) ColumnSums valueSums, squareSums;
-    sumColumns(values[row], valueSums);
-    sumColumns(squares[row], squareSums);
+    sumColumns(values[row], inputBlocks, valueSums);
+    sumColumns(squares[row], inputBlocks, squareSums);
     const auto index = static_cast<std::size_t>(row);
-    momentsRow(valueSums, squareSums, out.mean[index].data(), out.variance[index].data());
+    momentsRow(valueSums, squareSums, blocks, out.mean[index].data(), out.variance[index].data());
   }
 }
 
 TileSums compareTile(const PaddedPlane& reference, const ReferenceTile& referenceTile, const PaddedPlane& test,
                      const PaddedPlane* weights, const Tile& tile) {
+  const int blocks = blocksOf(tile), inputBlocks = blocks + 1;
   alignas(64) InputRows values, squares, products;
   for (int row = 0; row < tile.rows + 2 * kRadius; ++row) {
     const float* const y = &test.values(tile.x, tile.y + row);
-    squareRow(y, values[row], squares[row]);
-    multiplyRow(&reference.values(tile.x, tile.y + row), y, products[row]);
+    squareRow(y, inputBlocks, values[row], squares[row]);
+    multiplyRow(&reference.values(tile.x, tile.y + row), y, inputBlocks, products[row]);
   }
   MapSums sums;
   Columns columns;
   alignas(64) RowSums ssim;
   for (int row = 0; row < tile.rows; ++row) {
-    sumColumns(values[row], columns.values);
-    sumColumns(squares[row], columns.squares);
-    sumColumns(products[row], columns.products);
+    sumColumns(values[row], inputBlocks, columns.values);
+    sumColumns(squares[row], inputBlocks, columns.squares);
+    sumColumns(products[row], inputBlocks, columns.products);
     const auto index = static_cast<std::size_t>(row);
-    similarityRow(columns, referenceTile.mean[index].data(), referenceTile.variance[index].data(), ssim.data(),
+    similarityRow(columns, referenceTile.mean[index].data(), referenceTile.variance[index].data(), blocks, ssim.data(),
                   sums.ssim.data(), sums.contrastStructure.data());
-    if (weights) addWeighted(ssim.data(), &weights->values(tile.x, tile.y + row), sums.weightedSsim.data());
+    if (weights) addWeighted(ssim.data(), &weights->values(tile.x, tile.y + row), blocks, sums.weightedSsim.data());
   }
   return {sumFirst(sums.ssim, tile.width), sumFirst(sums.contrastStructure, tile.width),
           sumFirst(sums.weightedSsim, tile.width)};
