@@ -12,9 +12,9 @@ double sumOf(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
 }  // namespace
 
-Flicker computeFlicker(const FramePair& frame, const FramePair& before) {
+Flicker computeFlicker(const FramePair& frame, const FramePair& before, int frames) {
   const std::size_t pixels = frame.image.size();
-  assert(pixels > 0 && frame.reference.size() == pixels && before.image.size() == pixels &&
+  assert(frames > 0 && pixels > 0 && frame.reference.size() == pixels && before.image.size() == pixels &&
          before.reference.size() == pixels);
   double whole = 0, inside = 0;
   std::int64_t count = 0;
@@ -27,8 +27,9 @@ Flicker computeFlicker(const FramePair& frame, const FramePair& before) {
     inside += change;
     ++count;
   }
-  Flicker flicker{whole / (3.0 * static_cast<double>(pixels))};
-  if (count > 0) flicker.mask = inside / (3.0 * static_cast<double>(count));
+  const double values = 3.0 * frames;  // of a pixel
+  Flicker flicker{whole / (values * static_cast<double>(pixels))};
+  if (count > 0) flicker.mask = inside / (values * static_cast<double>(count));
   return flicker;
 }
 

@@ -435,7 +435,7 @@ void makeReportFolder(const std::string& directory) {
 void writeReport(const Results& results, const std::string& directory, const AxisValues& defaults) {
   makeReportFolder(directory);
   writeFileAtomically(directory + "/report.md", makeReport(results, defaults));
-  writeFileAtomically(directory + "/report.csv", toCsv(results));
+  writeFileAtomically(directory + "/report.csv", toCsv(results, defaults));
 }
 
 }  // namespace pb

@@ -67,8 +67,8 @@ struct MatchedErrors {
   MetricValues floor, maskFloor;
 };
 
-// Mean over pixels and channels of |(I_f - I_e) - (R_f - R_e)| for frame f and the measured frame e before it: change
-// that only one of the two renderers shows.
+// Mean over pixels and channels of |(I_f - I_e) - (R_f - R_e)| / (f - e) for frame f and the measured frame e before it:
+// change that only one of the two renderers shows, radiance a frame.
 struct Flicker {
   double whole = 0;
   std::optional<double> mask{};  // over the pixels of reflective and refractive objects in either frame
@@ -87,7 +87,8 @@ struct CostResult {
   double frameMs = 0, frameMsLow = 0, frameMsHigh = 0;  // median over repetitions and its 95 % interval
   double plainMs = 0;                                   // plain frame, same scene and size, interleaved
   double ratio = 0, ratioLow = 0, ratioHigh = 0;        // frame / plain, median of the repetitions' own ratios
-  std::vector<double> ratios;                           // of the repetitions, in their order; older results have none
+  // Of the repetitions, in their order, of processor time on software GL; older results have none.
+  std::vector<double> ratios;
   std::vector<double> captureMs;                        // by bounce iteration, instrumented run
   double shadowMs = 0;                                  // shadow maps, instrumented run
   double prefilterMs = 0;                               // all bounce iterations, instrumented run
@@ -193,7 +194,7 @@ CellResult cellFromJson(const std::string& text, const std::string& place);
 
 // One tidy row per cell and value: scene,camera,frame,<axes>,region,metric,value (region: whole, mask, floor,
 // mask_floor, unbiased, matched, matched_mask, cost, counter, material NAME, ...: docs/results.md). Undefined values
-// are empty, infinity is "inf".
-std::string toCsv(const Results& results);
+// are empty, infinity is "inf". defaults: of the axes; those that stand there in the whole run have no column.
+std::string toCsv(const Results& results, const AxisValues& defaults = {});
 
 }  // namespace pb

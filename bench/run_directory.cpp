@@ -129,7 +129,7 @@ void RunDirectory::appendLine(const char* name, const std::string& line) {
 void RunDirectory::finish(const Results& results, const std::string& benchmarkJson) {
   const auto path = [&](const char* name) { return (folder_ / name).string(); };
   if (!benchmarkJson.empty()) writeFileAtomically(path("benchmark.json"), benchmarkJson);
-  writeFileAtomically(path("results.csv"), toCsv(results));
+  writeFileAtomically(path("results.csv"), toCsv(results, describe(Technique())));
   writeFileAtomically(path("report.md"), makeReport(results, describe(Technique())));
   writeFileAtomically(path("results.json"), toJson(results));
 }

@@ -218,7 +218,7 @@ class Runner {
     std::optional<RenderedFrame> before;
     const ExternalOutcome outcome =
         runExternal(request, [&](int frame, Image picture, const std::optional<ReportedCost>& cost) {
-          const RenderedFrame shown{std::make_shared<const Image>(std::move(picture)), truths.at(frame)};
+          const RenderedFrame shown{std::make_shared<const Image>(std::move(picture)), truths.at(frame), frame};
           const std::optional<RenderedFrame> shownBefore = std::exchange(before, shown);
           if (!std::ranges::binary_search(open, frame)) return;
           CellResult cell = makeCell(c_.suite, sequence, frame);
@@ -268,7 +268,7 @@ class Runner {
       const bool measured = std::ranges::binary_search(open, frame);
       const FrameStats stats = raster.renderFrame(*snapshot(sequence.scene, frame), measured);
       if (!std::ranges::binary_search(read, frame)) continue;
-      const RenderedFrame shown{std::make_shared<const Image>(raster.readImage()), truths.at(frame)};
+      const RenderedFrame shown{std::make_shared<const Image>(raster.readImage()), truths.at(frame), frame};
       const std::optional<RenderedFrame> shownBefore = std::exchange(before, shown);
       if (!measured) continue;
       MetricValues integrity;

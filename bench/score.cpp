@@ -42,7 +42,9 @@ Plane scoreCell(const ScoreRequest& request, CellResult& cell) {
   cell.maskFloor = truth.maskFloor;
   cell.unbiased = {{"mse", computeUnbiasedMse(image, truth.halfA, truth.halfB)}};
   if (request.depth) cell.matched = matchedErrors(truth, *request.depth, image, cell);
-  if (request.before) cell.flicker = computeFlicker(pairOf(request.frame), pairOf(*request.before));
+  if (request.before)
+    cell.flicker =
+        computeFlicker(pairOf(request.frame), pairOf(*request.before), request.frame.number - request.before->number);
   addTables(request, scores.flipHdrMap, cell);
   return std::move(scores.flipHdrMap);
 }

@@ -14,6 +14,7 @@ namespace pb {
 struct RenderedFrame {
   std::shared_ptr<const Image> image;
   std::shared_ptr<const Truth> truth;
+  int number;
 };
 
 struct ScoreRequest {

@@ -49,11 +49,15 @@ TEST(Flicker, IsTheChangeThatOnlyOneRendererShows) {
   Mask mask(4, 1), maskBefore(4, 1);
   mask[0] = 1;
   maskBefore[2] = 1;
-  const Flicker flicker = computeFlicker({image, reference, mask}, {imageBefore, referenceBefore, maskBefore});
+  const Flicker flicker = computeFlicker({image, reference, mask}, {imageBefore, referenceBefore, maskBefore}, 1);
   constexpr double kRounding = 1e-6;
   EXPECT_NEAR(flicker.whole, (3 * 0.1 + 0.3) / 12, kRounding);
   EXPECT_NEAR(flicker.mask.value(), 3 * 0.1 / 6, kRounding);
-  EXPECT_FALSE(computeFlicker({image, reference, {}}, {image, reference, {}}).mask);
+  EXPECT_FALSE(computeFlicker({image, reference, {}}, {image, reference, {}}, 1).mask);
+  // The same change over four frames is a quarter of it a frame.
+  const Flicker slow = computeFlicker({image, reference, mask}, {imageBefore, referenceBefore, maskBefore}, 4);
+  EXPECT_DOUBLE_EQ(slow.whole, flicker.whole / 4);
+  EXPECT_DOUBLE_EQ(slow.mask.value(), flicker.mask.value() / 4);
 }
 
 // Frames 0 to 3 with these relMSE (which samples::makeMetrics makes a tenth of) and ages.

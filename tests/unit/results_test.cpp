@@ -322,6 +322,13 @@ TEST(Csv, HasOneRowPerCellAndValue) {
   EXPECT_THAT(csv, Not(HasSubstr("builtin:b,main,0,64,every-frame,1,mask")));
 }
 
+TEST(Csv, LeavesOutAxesThatStandAtTheirDefaultInTheWholeRun) {
+  const Results results = samples::makeResults();
+  EXPECT_THAT(toCsv(results, {{"resolution", "64"}, {"bounces", "1"}}), testing::StartsWith("scene,camera,frame,"));
+  EXPECT_THAT(toCsv(results, {{"bounces", "1"}}), Not(HasSubstr(",bounces,")));
+  EXPECT_THAT(toCsv(results, {{"bounces", "7"}}), HasSubstr(",bounces,"));
+}
+
 TEST(Csv, QuotesWhatHoldsSeparators) {
   Results results;
   results.cells.push_back(samples::makeCell("a,\"b\"", 0, "64", "static", 0.1));
