@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <cmath>
 
 namespace pb {
@@ -11,9 +12,9 @@ namespace {
 
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : escapeMarkdown(text)) {
     if (c == '|') result += '\\';
-    result += c == '\n' || c == '\r' ? ' ' : c;
+    result += c;
   }
   return result;
 }
@@ -32,6 +33,19 @@ std::string padded(const std::string& text, std::size_t width, Align align) {
 std::string line(const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
 
 }  // namespace
+
+std::string escapeMarkdown(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ', last = i > 0 ? text[i - 1] : ' ';
+    // An element begins with a letter, "</", "<!" or "<?" (CommonMark 0.31.2, section 6.6); "< 0.1" is none.
+    const bool opensElement =
+        c == '<' && (std::isalpha(static_cast<unsigned char>(next)) || next == '/' || next == '!' || next == '?');
+    if (opensElement || c == '`' || (c == '(' && last == ']')) result += '\\';
+    result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result;
+}
 
 std::string toMarkdown(const Table& table) {
   std::vector<std::vector<std::string>> lines(1);

@@ -18,7 +18,11 @@ struct Table {
   std::vector<std::vector<std::string>> rows;  // each as long as `columns`
 };
 
-// Widths count Unicode code points; '|' and line breaks in a cell are escaped. Ends with a line break.
+// A name in running text or in a heading of Markdown: what would begin an element of HTML, code or a link's target is
+// escaped, line breaks become spaces. Names as the tool makes them stay as they are.
+std::string escapeMarkdown(const std::string& text);
+
+// Widths count Unicode code points; cells are escaped like names, and '|' as well. Ends with a line break.
 std::string toMarkdown(const Table& table);
 
 // `value` with that many significant digits: 0.0123, 12.3, 12345, and 1.23e-05 below 1e-4 or from a million on. "-" for

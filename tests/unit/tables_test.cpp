@@ -1,5 +1,6 @@
 #include "bench/tables.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,6 +35,16 @@ TEST(Table, CountsCodePointsAndEscapesBars) {
             "| caf\xc3\xa9      |\n"
             "| a\\|b      |\n"
             "| two lines |\n");
+}
+
+TEST(EscapeMarkdown, LeavesNoElementCodeOrLink) {
+  const std::pair<const char*, const char*> cases[] = {{"</script><img src=x>", "\\</script>\\<img src=x>"},
+                                                       {"`code`", "\\`code\\`"},
+                                                       {"[text](target)", "[text]\\(target)"},
+                                                       {"two\nlines", "two lines"},
+                                                       {"builtin:mirrors?count=2 < 0.1 [0.1, 0.2] (a) face_age",
+                                                        "builtin:mirrors?count=2 < 0.1 [0.1, 0.2] (a) face_age"}};
+  for (const auto& [text, escaped] : cases) EXPECT_EQ(escapeMarkdown(text), escaped);
 }
 
 TEST(FormatSignificant, KeepsThreeDigits) {
@@ -187,6 +198,79 @@ TEST(Report, OfASceneWithoutMaskOrCost_LeavesThemOut) {
   EXPECT_THAT(report, Not(HasSubstr("FLIP-HDR mask")));
   EXPECT_THAT(report, Not(HasSubstr("versus")));
   EXPECT_THAT(report, Not(HasSubstr("All costs")));
+}
+
+// Of the samples' two frames: 8 e and 7.2 e with e = 0.1, so p95 is the worst of them.
+TEST(Report, ShowsPercentilesOfErrorsOverTheFrames) {
+  EXPECT_THAT(makeReport(samples::makeResults()),
+              testing::ContainsRegex("FLIP-HDR mask \\|   p95 \\| worst \\| relMSE mask \\| +p95 \\| +worst \\|"));
+  EXPECT_THAT(makeReport(samples::makeResults()),
+              HasSubstr("| 64         | every-frame |         0.760 | 0.800 | 0.800 |"));
+}
+
+TEST(Report, ShowsFlickerAndErrorsByAge) {
+  Results results = samples::makeResults();
+  results.cells[1].flicker = Flicker{0.25, 0.5};
+  const std::string report = makeReport(results);
+  EXPECT_THAT(report, HasSubstr("### Over time\n\nof the mask;"));
+  EXPECT_THAT(report, testing::ContainsRegex("every-frame \\| +0.500 \\| +0.500 \\| +0.500 \\| +0 \\| 1: 0.760 "));
+}
+
+TEST(Report, ShowsPeaksOfTheFrameTime) {
+  // 12 ms in the median: 1.5, 1.75 and 2 times as much.
+  EXPECT_THAT(makeReport(samples::makeResults()),
+              HasSubstr("| 64         | every-frame |   12.0 |   18.0 |   21.0 |     24.0 |        2.00 |\n"));
+}
+
+TEST(Report, ShowsErrorsAgainstTheTruthOfAsManyBounces) {
+  Results results = samples::makeResults();
+  for (CellResult& cell : results.cells) cell.matched.reset();
+  EXPECT_THAT(makeReport(results), Not(HasSubstr("own number of bounces")));
+  for (int frame : {0, 1}) results.cells[static_cast<std::size_t>(frame)].matched = samples::makeMatched(0.1);
+  EXPECT_THAT(makeReport(results), testing::ContainsRegex("every-frame \\| +2 \\| +0.400 \\| +0.760 \\|"));
+}
+
+TEST(Report, ShowsObjectsAndClustersOfTheBestTechnique) {
+  Results results = samples::makeResults();
+  for (CellResult& cell : results.cells) {
+    cell.objects = samples::makeObjects();
+    cell.clusters = {{4, 8, 15, 16, 23, 0.42, "ball"}};
+  }
+  const std::string report = makeReport(results);
+  EXPECT_THAT(report, HasSubstr("### Errors by object\n\nframe 1, technique of the smallest error, resolution=128"));
+  EXPECT_THAT(report, HasSubstr("| ball        | chrome   |    120 | 75.0 % |"));
+  EXPECT_THAT(report, HasSubstr("| ball   | 42.0 % |     23 |      4, 8 | 15 x 16 |\n"));
+}
+
+TEST(Report, GivesVerdictsOnlyWhereTheNoiseIsKnown) {
+  Results results;
+  for (const auto& [resolution, error] : {std::pair{"64", 0.2}, {"128", 0.1}, {"256", 0.11}, {"512", 0.3}}) {
+    results.cells.push_back(samples::makeCell("a", 0, resolution, "static", error));
+    results.cells.back().maskIntervals = {{"flip_hdr", {8 * error - 0.06, 8 * error + 0.06}}};
+  }
+  results.cells[3].maskIntervals.clear();
+  const std::string report = makeReport(results);
+  const auto verdict = [&](const char* resolution) {
+    const std::size_t row = report.find(fmt::format("| {} ", resolution), report.find("### All errors"));
+    return report.substr(row, report.find('\n', row) - row);
+  };
+  EXPECT_THAT(verdict("64"), HasSubstr("| worse "));
+  EXPECT_THAT(verdict("128"), HasSubstr("| the best "));
+  EXPECT_THAT(verdict("256"), HasSubstr("| equal within the interval "));
+  EXPECT_THAT(verdict("512"), HasSubstr("| -  "));
+  results.cells[3].maskFloor = {{"mse", 0.0}, {"relmse", 0.0}};  // a reference without noise: errors are exact
+  results.cells[1].maskFloor = {{"mse", 0.0}, {"relmse", 0.0}};
+  EXPECT_THAT(makeReport(results).find("| worse "), testing::Ne(makeReport(results).rfind("| worse ")));
+}
+
+TEST(Report, NamesInHeadingsAndBulletsStayText) {
+  Results results = samples::makeResults();
+  for (CellResult& cell : results.cells) cell.scene = "<img src=x onerror=alert(1)>";
+  results.provenance.suiteName = "</script>";
+  const std::string report = makeReport(results);
+  EXPECT_THAT(report, HasSubstr("## \\<img src=x"));
+  EXPECT_THAT(report, testing::StartsWith("# \\</script>: error"));
+  EXPECT_THAT(report, Not(testing::ContainsRegex("[^\\\\]<img")));
 }
 
 TEST(Report, EndsWithTheCircumstances) {
