@@ -1,8 +1,11 @@
 #include "bench/attribution_cells.h"
 
 #include <algorithm>
+#include <map>
+#include <regex>
 
 #include "bench/axes.h"
+#include "scenes/error.h"
 
 namespace pb {
 namespace {
@@ -14,51 +17,48 @@ std::size_t differingAxes(const Technique& a, const Technique& b) {
   return count;
 }
 
-// Of each scene the sequence that is nearest to the suite's base technique, the first of several. Shards of a run agree
-// on it: it is chosen from the whole suite.
-std::vector<PlannedSequence> baseSequences(const Suite& suite) {
-  std::vector<PlannedSequence> nearest;
-  std::size_t fewest = 0;
-  for (const PlannedSequence& sequence : makePlan(suite).sequences) {
+// Those that are measured, of which every or the last one is wanted.
+std::vector<int> wantedFrames(const Suite& suite, const PlannedSequence& sequence) {
+  if (suite.attribution->everyFrame) return sequence.frames;
+  return {sequence.frames.back()};
+}
+
+std::vector<int> matchingFrames(const Suite& suite, const PlannedSequence& sequence, const std::regex& expression) {
+  std::vector<int> frames = wantedFrames(suite, sequence);
+  std::erase_if(frames,
+                [&](int frame) { return !std::regex_search(makeCell(suite, sequence, frame).key(), expression); });
+  return frames;
+}
+
+// Of each scene the sequence that is nearest to the suite's base technique, the first of several.
+void chooseNearest(const Suite& suite, std::vector<PlannedSequence>& sequences) {
+  std::map<std::size_t, std::pair<std::size_t, PlannedSequence*>> nearest;  // by scene, with the axes that differ
+  for (PlannedSequence& sequence : sequences) {
     if (sequence.external) continue;
     const std::size_t axes = differingAxes(sequence.technique, suite.technique);
-    const bool isNewScene = nearest.empty() || nearest.back().scene != sequence.scene;
-    if (isNewScene)
-      nearest.push_back(sequence);
-    else if (axes < fewest)
-      nearest.back() = sequence;
-    else
-      continue;
-    fewest = axes;
+    const auto [found, isNew] = nearest.try_emplace(sequence.scene, axes, &sequence);
+    if (!isNew && axes < found->second.first) found->second = {axes, &sequence};
   }
-  return nearest;
+  for (const auto& [scene, chosen] : nearest) chosen.second->attributedFrames = wantedFrames(suite, *chosen.second);
 }
 
 }  // namespace
 
-AttributedCells::AttributedCells(const Suite& suite) : settings_(*suite.attribution) {
-  if (settings_.cells)
-    expression_.assign(*settings_.cells);
-  else
-    base_ = baseSequences(suite);
+void requireAttributedCells(const Suite& suite, const std::vector<PlannedSequence>& sequences) {
+  if (!suite.attribution || !suite.attribution->cells) return;
+  const std::regex expression(*suite.attribution->cells);
+  const bool any = std::ranges::any_of(
+      sequences, [&](const PlannedSequence& sequence) { return !matchingFrames(suite, sequence, expression).empty(); });
+  if (!any)
+    throwInputError("'cells' of 'attribution', '{}', matches no cell of suite '{}'{}", *suite.attribution->cells,
+                    suite.name, suite.attribution->everyFrame ? "" : " at the last frame of a sequence");
 }
 
-bool AttributedCells::includes(const PlannedSequence& sequence, const CellResult& cell) const {
-  if (!settings_.everyFrame && cell.frame != sequence.frames.back()) return false;
-  if (settings_.cells) return std::regex_search(cell.key(), expression_);
-  return std::ranges::any_of(base_, [&](const PlannedSequence& base) {
-    return base.scene == sequence.scene && base.technique == sequence.technique && !sequence.external;
-  });
-}
-
-std::size_t countAttributedCells(const Suite& suite, const Plan& plan) {
-  if (!suite.attribution) return 0;
-  const AttributedCells chosen(suite);
-  std::size_t count = 0;
-  for (const PlannedSequence& sequence : plan.sequences)
-    for (const int frame : sequence.frames)
-      count += chosen.includes(sequence, makeCell(suite, sequence, frame)) ? 1 : 0;
-  return count;
+void chooseAttributedCells(const Suite& suite, std::vector<PlannedSequence>& sequences) {
+  if (!suite.attribution) return;
+  if (!suite.attribution->cells) return chooseNearest(suite, sequences);
+  const std::regex expression(*suite.attribution->cells);
+  for (PlannedSequence& sequence : sequences) sequence.attributedFrames = matchingFrames(suite, sequence, expression);
 }
 
 }  // namespace pb

@@ -1,8 +1,6 @@
 // Of which of a plan's cells a suite wants to know where the error comes from.
 #pragma once
 
-#include <cstddef>
-#include <regex>
 #include <vector>
 
 #include "bench/plan.h"
@@ -10,20 +8,10 @@
 
 namespace pb {
 
-class AttributedCells {
- public:
-  // Of a suite with attribution.
-  explicit AttributedCells(const Suite& suite);
+// Throws an input Error if the suite asks for the attribution of cells of which it has none.
+void requireAttributedCells(const Suite& suite, const std::vector<PlannedSequence>& sequences);
 
-  bool includes(const PlannedSequence& sequence, const CellResult& cell) const;
-
- private:
-  AttributionSettings settings_;
-  std::regex expression_;
-  std::vector<PlannedSequence> base_;
-};
-
-// How many cells of the plan that are; 0 for a suite without attribution.
-std::size_t countAttributedCells(const Suite& suite, const Plan& plan);
+// Sets attributedFrames of the sequences; does nothing for a suite without attribution.
+void chooseAttributedCells(const Suite& suite, std::vector<PlannedSequence>& sequences);
 
 }  // namespace pb

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/attribution_cells.h"
 #include "bench/attribution_steps.h"
 #include "bench/axes.h"
 #include "bench/bounce_depth.h"
@@ -17,9 +16,6 @@
 
 namespace pb {
 namespace {
-
-// Texels are seen magnified, their noise too, where a map has few of them.
-constexpr int kTexelSpp = 16;
 
 struct Job {
   const PlannedSequence* sequence;
@@ -79,12 +75,11 @@ class Attributor {
   std::vector<Job> chooseJobs(const std::vector<CellResult>& cells) const {
     std::map<std::string, const CellResult*> byKey;
     for (const CellResult& cell : cells) byKey.emplace(cell.key(), &cell);
-    const AttributedCells choice(c_.suite);
     std::vector<Job> jobs;
     for (const PlannedSequence& sequence : c_.plan.sequences)
-      for (const int frame : sequence.frames) {
+      for (const int frame : sequence.attributedFrames) {
         const auto found = byKey.find(makeCell(c_.suite, sequence, frame).key());
-        if (found == byKey.end() || !choice.includes(sequence, *found->second)) continue;
+        if (found == byKey.end()) continue;
         if (!sequence.external && takesOracleMaps(sequence.technique))
           jobs.push_back({&sequence, found->second});
         else
@@ -184,7 +179,7 @@ class Attributor {
   Image renderTraced(const RasterStep& step, const Frame& frame, std::optional<int> depth) {
     const ProbeViews views = probeViews(step.technique, frame.snapshot, c_.suite.image.heightPx);
     ReferenceSettings settings;
-    settings.spp = c_.suite.attribution->spp.value_or(std::max(kTexelSpp, c_.suite.reference.spp));
+    settings.spp = texelSpp(*c_.suite.attribution, c_.suite.reference.spp);
     settings.depth = depth;
     const OracleMaps& maps = maps_.obtain(views, settings, needsDistances(step.technique));
     return renderWithMaps(c_.device, step.technique, *frame.snapshot, c_.suite.image, maps);
@@ -249,12 +244,9 @@ class Attributor {
 
 void checkAttribution(const Suite& suite, const Scenes& scenes, const Plan& plan, RasterDevice& device) {
   if (!suite.attribution) return;
-  const AttributedCells chosen(suite);
   const ImageSettings& image = suite.image;
   for (const PlannedSequence& sequence : plan.sequences) {
-    const auto isChosen = [&](int frame) { return chosen.includes(sequence, makeCell(suite, sequence, frame)); };
-    if (sequence.external || !takesOracleMaps(sequence.technique) || std::ranges::none_of(sequence.frames, isChosen))
-      continue;
+    if (sequence.external || !takesOracleMaps(sequence.technique) || sequence.attributedFrames.empty()) continue;
     const auto snapshot = makeSnapshot(scenes[sequence.scene], sequence.frames.back(),
                                        suite.scenes[sequence.scene].camera, image.aspect());
     for (const RasterStep& step : rasterSteps(sequence.technique, suite.attribution->resolution)) {

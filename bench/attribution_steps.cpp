@@ -7,6 +7,9 @@
 namespace pb {
 namespace {
 
+// Texels are seen magnified, their noise too, where a map has few of them.
+constexpr int kTexelSpp = 16;
+
 // Maps are stored and filtered as well as the raster can.
 Technique withBestMaps(Technique technique) {
   const Technique best;
@@ -49,6 +52,10 @@ std::vector<RasterStep> rasterSteps(const Technique& technique, int tracedResolu
           {.step = "resolution", .technique = traced, .isTraced = true},
           {.step = "capture", .technique = withBestMaps(fresh)},
           {.step = "filtered/format", .technique = withMapsAsStored(fresh, technique)}};
+}
+
+int texelSpp(const AttributionSettings& settings, int referenceSpp) {
+  return settings.spp.value_or(std::max(kTexelSpp, referenceSpp));
 }
 
 }  // namespace pb

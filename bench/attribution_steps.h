@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/suite_attribution.h"
 #include "raster/technique.h"
 
 namespace pb {
@@ -17,5 +18,8 @@ struct RasterStep {
 // The images between the truncated truth and the technique as it is run, in order. `tracedResolution`: of the maps that
 // stand for perfect ones, texels along the edge of a face.
 std::vector<RasterStep> rasterSteps(const Technique& technique, int tracedResolution);
+
+// Samples of a texel of traced maps.
+int texelSpp(const AttributionSettings& settings, int referenceSpp);
 
 }  // namespace pb

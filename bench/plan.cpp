@@ -6,6 +6,7 @@
 
 #include "bench/attribution_cells.h"
 #include "bench/axes.h"
+#include "bench/counted.h"
 #include "scenes/error.h"
 #include "scenes/spec.h"
 
@@ -119,7 +120,9 @@ Plan makePlan(const Suite& suite, const PlanFilter& filter) {
       plan.sequences.push_back({scene, suite.technique, suite.scenes[scene].frames, external});
   }
   requireDistinct(suite, plan.sequences);
+  requireAttributedCells(suite, plan.sequences);
   if (filter.only) keepOnly(suite, *filter.only, plan.sequences);
+  chooseAttributedCells(suite, plan.sequences);  // of what is left, and for all shards alike
   keepShard(filter.shard, plan.sequences);
   return plan;
 }
@@ -146,17 +149,20 @@ std::string printPlan(const Suite& suite, const Plan& plan) {
     const std::size_t frames = plan.framesOf(scene).size();
     references += frames;
     const auto sequences = std::ranges::count(plan.sequences, scene, &PlannedSequence::scene);
-    text += fmt::format("  {}: {} sequences, {} measured frames\n", suite.scenes[scene].name, sequences, frames);
+    text += fmt::format("  {}: {}, {}\n", suite.scenes[scene].name,
+                        counted(static_cast<std::size_t>(sequences), "sequence"), counted(frames, "measured frame"));
   }
   const auto isExternal = [](const PlannedSequence& sequence) { return sequence.external.has_value(); };
   const auto externals = static_cast<std::size_t>(std::ranges::count_if(plan.sequences, isExternal));
   const std::size_t rasters = plan.sequences.size() - externals;
-  const std::string external = externals > 0 ? fmt::format(" and {} external ones", externals) : "";
-  text += fmt::format("{} cells in {} raster sequences{}, {} references, {} cost measurements of {} repetitions\n",
-                      plan.cellCount(), rasters, external, references, suite.cost.repetitions > 0 ? rasters : 0,
-                      suite.cost.repetitions);
-  if (const std::size_t attributed = countAttributedCells(suite, plan); attributed > 0)
-    text += fmt::format("attribution of {} cells\n", attributed);
+  const std::string external = externals > 0 ? " and " + counted(externals, "external one") : "";
+  const auto repetitions = static_cast<std::size_t>(suite.cost.repetitions);
+  text += fmt::format("{} in {}{}, {}, {} of {}\n", counted(plan.cellCount(), "cell"),
+                      counted(rasters, "raster sequence"), external, counted(references, "reference"),
+                      counted(repetitions > 0 ? rasters : 0, "cost measurement"), counted(repetitions, "repetition"));
+  std::size_t attributed = 0;
+  for (const PlannedSequence& sequence : plan.sequences) attributed += sequence.attributedFrames.size();
+  if (attributed > 0) text += fmt::format("attribution of {}\n", counted(attributed, "cell"));
   return text;
 }
 

@@ -18,6 +18,7 @@ struct PlannedSequence {
   Technique technique;
   std::vector<int> frames;                // increasing
   std::optional<std::size_t> external{};  // index into Suite::externals: that in place of `technique`
+  std::vector<int> attributedFrames{};    // of `frames`: those of which it is wanted where their error comes from
 };
 
 struct Plan {
@@ -40,7 +41,7 @@ struct PlanFilter {
 };
 
 // Throws an input Error for an invalid expression, for a scene or an axis value that stands twice, and when nothing is
-// left or the grid is absurdly large.
+// left, when the suite's attribution names no cell of it, or the grid is absurdly large.
 Plan makePlan(const Suite& suite, const PlanFilter& filter = {});
 
 // A cell as results name it, with nothing measured yet.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/counted.h"
 #include "bench/work.h"
 #include "scenes/files.h"
 
@@ -15,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What runs do one after the other, in that order.
-constexpr const char* kKinds[] = {"control", "references", "errors", "intervals", "cost"};
+constexpr const char* kKinds[] = {"control", "references", "errors", "intervals", "attribution", "cost"};
 
 }  // namespace
 
@@ -70,10 +71,9 @@ void Rates::save() const {
 }
 
 std::string printWork(const PlanWork& work, const Rates& rates) {
-  std::string text = fmt::format(
-      "at most {} references, {} of them stored; {} raster frames with {:.0f} captured faces; {} blocks of frames "
-      "for cost\n",
-      work.references, work.stored, work.frames, work.captures, work.blocks);
+  std::string text = fmt::format("at most {}, {} stored; {} with {:.0f} captured faces; {} of frames for cost\n",
+                                 counted(work.references, "reference"), work.stored,
+                                 counted(work.frames, "raster frame"), work.captures, counted(work.blocks, "block"));
   std::map<std::string, double> seconds;
   std::set<std::string> unknown;
   for (const auto& [kind, units] : work.units) {

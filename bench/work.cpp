@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/attribution_steps.h"
 #include "bench/bounce_depth.h"
 #include "bench/cost.h"
+#include "bench/oracle.h"
 #include "bench/truth.h"
 #include "raster/probe_layout.h"
 
@@ -107,6 +109,18 @@ class WorkCounter {
         frames * (samples + kRender + faces * face) +
         static_cast<double>(sequence.frames.size()) * kScoring * megapixels(suite_.image, 1);
     countCost(block, faces * face);
+    countAttribution(sequence, probes);
+  }
+
+  // The truncated truth and the traced maps, as if no two cells shared them; what is rasterised is little beside that.
+  void countAttribution(const PlannedSequence& sequence, int probes) {
+    if (sequence.attributedFrames.empty() || !takesOracleMaps(sequence.technique)) return;
+    double traced = megapixels(suite_.image, suite_.image.samplesPerAxis) * suite_.reference.spp;
+    for (const RasterStep& step : rasterSteps(sequence.technique, suite_.attribution->resolution))
+      if (step.isTraced)
+        traced += 6.0 * probes * step.technique.resolution * step.technique.resolution / kMillion *
+                  texelSpp(*suite_.attribution, suite_.reference.spp);
+    work_.units[{"attribution", suite_.name}] += static_cast<double>(sequence.attributedFrames.size()) * traced;
   }
 
   // Blocks of frames, a warm-up and instrumented frames, and eight plain frames a repetition.

@@ -94,7 +94,7 @@ TEST(External, PerfectPictures_HaveNoErrorAndTheirOwnTimes) {
   const Workplace workplace;
   const ProgramResult result = workplace.run(workplace.engine(), "run", {}, 1);
   ASSERT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("4 cells in 1 raster sequences and 1 external ones"));
+  EXPECT_THAT(result.err, HasSubstr("4 cells in 1 raster sequence and 1 external one"));
   const std::vector<CellResult> cells = workplace.externalCells("run");
   ASSERT_EQ(cells.size(), 2u);
   for (const CellResult& cell : cells) {

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "bench/attribution_cells.h"
 #include "bench/attribution_runner.h"
 #include "bench/attribution_steps.h"
 #include "bench/axes.h"
@@ -71,13 +70,11 @@ grid = { resolution = [32, 64, 128], bounces = [1, 3] }
                     "test.toml", "");
 }
 
-std::vector<std::string> attributedKeys(const Suite& suite) {
-  const AttributedCells chosen(suite);
+std::vector<std::string> attributedKeys(const Suite& suite, const PlanFilter& filter = {}) {
   std::vector<std::string> keys;
-  for (const PlannedSequence& sequence : makePlan(suite).sequences)
-    for (const int frame : sequence.frames)
-      if (const CellResult cell = makeCell(suite, sequence, frame); chosen.includes(sequence, cell))
-        keys.push_back(shortKey(cell.key(), describe(Technique())));
+  for (const PlannedSequence& sequence : makePlan(suite, filter).sequences)
+    for (const int frame : sequence.attributedFrames)
+      keys.push_back(shortKey(makeCell(suite, sequence, frame).key(), describe(Technique())));
   return keys;
 }
 
@@ -85,13 +82,32 @@ TEST(AttributedCells, AreThoseNearestToTheBaseTechniqueAtTheLastFrame) {
   const Suite suite = suiteWith("attribution = {}");
   EXPECT_THAT(attributedKeys(suite), ElementsAre(AllOf(HasSubstr("teapot"), HasSubstr("frame=4 resolution=64")),
                                                  AllOf(HasSubstr("glass"), HasSubstr("frame=0 resolution=64"))));
-  EXPECT_EQ(countAttributedCells(suite, makePlan(suite)), 2u);
-  EXPECT_EQ(countAttributedCells(suiteWith(""), makePlan(suite)), 0u);
+  EXPECT_THAT(attributedKeys(suiteWith("")), SizeIs(0));
 }
 
 TEST(AttributedCells, AreChosenByTheirKeys) {
   EXPECT_THAT(attributedKeys(suiteWith("attribution = { cells = \"teapot.*resolution=32\", frames = \"all\" }")),
               SizeIs(4));
+}
+
+TEST(AttributedCells, AreChosenFromWhatOnlyLeaves) {
+  EXPECT_THAT(attributedKeys(suiteWith("attribution = {}"), {.only = "teapot.*frame=3.*resolution=128", .shard = {}}),
+              ElementsAre(AllOf(HasSubstr("teapot"), HasSubstr("frame=3 resolution=128"))));
+}
+
+TEST(AttributedCells, OfAllShards_AreThoseOfTheWhole) {
+  const Suite suite = suiteWith("attribution = {}");
+  std::vector<std::string> keys;
+  for (int part = 1; part <= 3; ++part) {
+    const std::vector<std::string> more = attributedKeys(suite, {.only = std::nullopt, .shard = {part, 3}});
+    keys.insert(keys.end(), more.begin(), more.end());
+  }
+  EXPECT_EQ(keys, attributedKeys(suite));
+}
+
+TEST(AttributedCells, ThatMatchNothing_AreRefused) {
+  const Suite suite = suiteWith("attribution = { cells = \"nomatch\" }");
+  EXPECT_THAT(messageOf([&] { makePlan(suite); }), HasSubstr("'nomatch', matches no cell of suite 'test'"));
 }
 
 TEST(AttributedCells, OfABadTableAreRefusedWithItsPlace) {

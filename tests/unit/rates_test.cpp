@@ -70,7 +70,7 @@ TEST(PrintedWork, SaysHowLongItTakesAndWhatIsNotKnown) {
   work.stored = 6;
   work.units[{"errors", "a"}] = 30;
   work.units[{"cost", ""}] = 1;
-  EXPECT_THAT(printWork(work, rates), HasSubstr("at most 8 references, 6 of them stored"));
+  EXPECT_THAT(printWork(work, rates), HasSubstr("at most 8 references, 6 stored"));
   EXPECT_THAT(printWork(work, rates), HasSubstr("no rates measured yet"));
   rates.record({"errors", "a"}, 1, 2);
   EXPECT_THAT(printWork(work, rates),
