@@ -221,6 +221,8 @@ std::string techniqueText(const AxisValues& technique, const CandidateSet& set) 
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", setting.first, setting.second);
   }
   if (!text.empty()) return text;
+  for (const auto& [axis, value] : technique)
+    if (axis == kExternalAxis) return fmt::format("{}={}", axis, value);
   return set.axes.empty() ? "the only technique" : "the base technique";
 }
 

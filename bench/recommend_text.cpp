@@ -6,14 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <set>
+#include <limits>
+#include <utility>
 
+#include "bench/counted.h"
 #include "bench/tables.h"
 
 namespace pb {
 namespace {
 
 constexpr double kBytesPerMegabyte = 1e6;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string megabytesText(double bytes) { return formatSignificant(bytes / kBytesPerMegabyte) + " MB"; }
 
@@ -111,13 +114,24 @@ std::string stepsText(const std::vector<Step>& steps) {
   return text + '\n';
 }
 
-// What would have been the nearest to an answer.
+// What would have been the nearest to an answer, in each respect that was asked for.
 std::string nothingText(const Recommendation& answer, const RecommendRequest& request, const AxisValues& defaults) {
   const auto& candidates = answer.set.candidates;
   if (candidates.empty()) return "No technique was measured on all of these scenes.\n";
-  const auto best = std::ranges::min_element(candidates, {}, [](const Candidate& c) { return c.loss.value; });
-  return fmt::format("No technique of this run holds that. The smallest error: {}\n{}",
-                     namedTechnique(best->technique, answer.set, defaults), candidateText(*best, request, answer.set));
+  std::string text = "No technique of this run holds that.";
+  const auto add = [&](const char* what, const auto& rank) {
+    const Candidate& nearest = *std::ranges::min_element(candidates, {}, rank);
+    text += fmt::format(" The {}: {}\n{}", what, namedTechnique(nearest.technique, answer.set, defaults),
+                        candidateText(nearest, request, answer.set));
+  };
+  const auto cost = [](const Candidate& c) { return c.ratio ? c.ratio->value : kInfinity; };
+  const auto ms = [](const Candidate& c) { return c.frameMs ? c.frameMs->value : kInfinity; };
+  if (request.maxError) add("smallest error", [&](const Candidate& c) { return std::pair(c.loss.value, cost(c)); });
+  if (request.budgetMs) add("shortest frames", [&](const Candidate& c) { return std::pair(ms(c), c.loss.value); });
+  if (request.budgetRatio) add("cheapest", [&](const Candidate& c) { return std::pair(cost(c), c.loss.value); });
+  if (request.budgetMb)
+    add("smallest probes", [](const Candidate& c) { return std::pair(c.probeBytes, c.loss.value); });
+  return text;
 }
 
 }  // namespace
@@ -183,7 +197,7 @@ std::string print(const Recommendation& answer, const RecommendRequest& request,
                   const PrintSettings& settings) {
   std::string text = fmt::format("{}; {}; {}\n", limitsText(request), questionText(request.selection, answer.set),
                                  scenesText(answer.set));
-  text += fmt::format("{} techniques compared", answer.set.candidates.size());
+  text += counted(answer.set.candidates.size(), "technique") + " compared";
   if (answer.set.elsewhere > 0)
     text += fmt::format("; {} more were measured on some of these scenes only (--scene chooses)", answer.set.elsewhere);
   text += '\n' + commonText(answer.set, settings.defaults) + '\n';

@@ -162,6 +162,11 @@ std::string makeSuiteText(const std::string& name, const std::string& use, const
   if (const std::vector<Line> lines = variations(traits); !lines.empty())
     text += "\n# Each of these for itself, on top of each technique of the grid.\n[scene.vary]\n" + print(lines);
   text += '\n' + gridText(traits);
+  if (traits.probes > 0)
+    text +=
+        "\n# Where the error of a technique comes from: bounces, lookup, resolution, capture, format, or old maps.\n"
+        "[attribution]\nresolution = 512  # texels a side of maps that stand for perfect ones; 1024 for final "
+        "numbers\n";
   text +=
       "\n# How far a metric may move before `probebench check` fails.\n[tolerance]\n"
       "flip_hdr = { relative = 0.02, absolute = 1e-4 }\nrelmse = { relative = 0.05, absolute = 1e-5 }\n";

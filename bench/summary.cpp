@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <set>
+#include <iterator>
+#include <map>
+#include <memory>
 
+#include "bench/counted.h"
 #include "bench/recommend.h"
 #include "bench/recommend_text.h"
 #include "bench/tables.h"
+#include "scenes/spec.h"
 
 namespace pb {
 namespace {
@@ -18,21 +21,49 @@ namespace {
 constexpr std::size_t kMaxLines = 10;
 // Good enough where nobody says what is: an error that is larger than the smallest one by a tenth.
 constexpr double kGoodEnough = 1.1;
+constexpr double kLeastShare = 0.005;  // smaller ones would be printed as 0 %
 
-std::size_t bestOf(const CandidateSet& set) {
-  const auto loss = [](const Candidate& candidate) { return candidate.loss.value; };
-  return static_cast<std::size_t>(std::ranges::min_element(set.candidates, {}, loss) - set.candidates.begin());
+bool hasOwnTechniques(const Results& results) {
+  return std::ranges::any_of(sectionsOf(results.cells), [](const Section& s) { return !s.sequences.empty(); });
 }
 
-std::optional<std::size_t> cheapestGoodEnough(const CandidateSet& set, std::size_t best) {
-  const double limit = kGoodEnough * set.candidates[best].loss.value;
-  std::optional<std::size_t> cheapest;
-  for (std::size_t i = 0; i < set.candidates.size(); ++i) {
-    const Candidate& candidate = set.candidates[i];
-    if (!candidate.ratio || !(candidate.loss.value <= limit)) continue;
-    if (!cheapest || candidate.ratio->value < set.candidates[*cheapest].ratio->value) cheapest = i;
-  }
-  return cheapest;
+// Of which an error is known.
+bool hasChoice(const Results& results) {
+  return hasOwnTechniques(results) && !candidatesOf(results, {}).candidates.empty();
+}
+
+// What the lines say, of a run or of one scene of it.
+struct Findings {
+  Recommendation answer;    // the cheapest technique that is good enough; without costs that of the smallest error
+  std::size_t best = 0;     // that of the smallest error, the cheapest of several
+  std::string limit{};      // what is good enough, of the metric
+  bool byInterval = false;  // as nobody knows the smallest error to within a tenth
+};
+
+// What is nearly as good as that, rounded up to three digits: as it is printed, it must not refuse what it was made
+// from.
+double limitFor(const Estimate& loss) {
+  constexpr double kSlack = 1e-9;  // relative, of the product: 1.1 * 0.19 is a little more than 0.209
+  const double limit = std::max(kGoodEnough * loss.value, loss.high);
+  if (!(limit > 0)) return limit;
+  const double step = std::pow(10.0, std::floor(std::log10(limit)) - 2);
+  const auto printed = [](double number) { return *parseNumber(formatSignificant(number)); };
+  const double rounded = printed(step * std::ceil(limit / step * (1 - kSlack)));
+  return rounded >= loss.high ? rounded : printed(rounded + step);
+}
+
+// Of results with techniques that can be compared; the results must outlive it.
+Findings findingsOf(const Results& results) {
+  RecommendRequest request;
+  Findings findings{recommend(results, request)};
+  findings.best = findings.answer.chosen.value();  // nothing limits it
+  const Estimate loss = findings.answer.set.candidates[findings.best].loss;
+  findings.byInterval = loss.high > kGoodEnough * loss.value;
+  request.maxError = limitFor(loss);
+  findings.limit = formatSignificant(*request.maxError);
+  if (findings.answer.front.empty()) return findings;  // no costs
+  findings.answer = recommend(results, request);
+  return findings;
 }
 
 std::string choiceText(const CandidateSet& set, std::size_t i, const std::string& metric) {
@@ -44,10 +75,11 @@ std::string choiceText(const CandidateSet& set, std::size_t i, const std::string
 // The largest shares first: "name 41 %, name 23 %".
 std::string sharesText(std::vector<std::pair<std::string, double>> shares) {
   constexpr std::size_t kShown = 3;
+  std::erase_if(shares, [](const auto& share) { return std::abs(share.second) < kLeastShare; });
   std::ranges::stable_sort(shares, std::greater(), [](const auto& share) { return std::abs(share.second); });
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(shares.size(), kShown); ++i)
-    if (shares[i].second != 0) parts.push_back(fmt::format("{} {:.0f} %", shares[i].first, 100 * shares[i].second));
+    parts.push_back(fmt::format("{} {:.0f} %", shares[i].first, 100 * shares[i].second));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -64,14 +96,19 @@ std::string objectsText(const Candidate& candidate) {
                      text);
 }
 
-// That of the candidate where it is worst, or else of any technique on that scene, or else the first.
+std::ptrdiff_t agreeingAxes(const AxisValues& a, const AxisValues& b) {
+  return std::ranges::count_if(a, [&](const auto& setting) { return std::ranges::find(b, setting) != b.end(); });
+}
+
+// That of the candidate where it is worst, at the last frame, or else of the technique that is most like it there, or
+// else elsewhere.
 const Attribution* attributionOf(const Results& results, const Candidate& candidate) {
-  const Attribution* best = nullptr;
   const auto rank = [&](const Attribution& a) {
-    return (a.scene == candidate.worstScene ? 2 : 0) + (a.technique == candidate.technique ? 1 : 0);
+    return std::pair(a.scene == candidate.worstScene, agreeingAxes(a.technique, candidate.technique));
   };
+  const Attribution* best = nullptr;
   for (const Attribution& attribution : results.attribution)
-    if (!best || rank(attribution) > rank(*best)) best = &attribution;
+    if (!best || rank(attribution) >= rank(*best)) best = &attribution;
   return best;
 }
 
@@ -82,7 +119,7 @@ std::optional<double> errorOf(const AttributionStep& step, bool onMask) {
 }
 
 // Bars of the waterfall as shares of the whole error; they may be negative.
-std::string attributionText(const Results& results, const Candidate& candidate) {
+std::string attributionText(const Results& results, const CandidateSet& set, const Candidate& candidate) {
   const Attribution* attribution = attributionOf(results, candidate);
   if (!attribution || attribution->steps.empty()) return {};
   const bool onMask = !attribution->steps.back().maskMetrics.empty();
@@ -95,77 +132,131 @@ std::string attributionText(const Results& results, const Candidate& candidate) 
     shares.emplace_back(step.step, (error - before) / total);
     before = error;
   }
-  const bool same = attribution->technique == candidate.technique;
-  return fmt::format("Where the error comes from ({} frame {}{}): {}", attribution->scene, attribution->frame,
-                     same ? "" : ", another technique", sharesText(std::move(shares)));
+  return fmt::format("Where the error of {} comes from ({} frame {}): {}", techniqueText(attribution->technique, set),
+                     attribution->scene, attribution->frame, sharesText(std::move(shares)));
 }
 
-std::string limitText(const std::string& metric, const Estimate& loss) {
-  return fmt::format("{}={}", metric, formatSignificant(metricOfLoss(metric, kGoodEnough * loss.value), 2));
+std::string withinText(const Findings& findings) {
+  return findings.byInterval
+             ? fmt::format("within its interval (at most {})", findings.limit)
+             : fmt::format("within {:.0f} % of it (at most {})", 100 * (kGoodEnough - 1), findings.limit);
 }
 
-std::vector<std::string> linesOf(const Results& results, const CandidateSet& set, const PrintSettings& settings) {
-  const Selection selection;
-  const std::size_t best = bestOf(set);
-  const std::optional<std::size_t> cheapest = cheapestGoodEnough(set, best);
-  const Candidate& answer = set.candidates[cheapest.value_or(best)];
-  std::vector<std::string> lines = {
-      fmt::format("{} techniques on {} scene{}; error: {}{}; cost: frame time over that of a plain frame",
-                  set.candidates.size(), set.scenes.size(), set.scenes.size() == 1 ? "" : "s",
-                  questionText(selection, set), set.scenes.size() == 1 ? "" : ", worst scene")};
-  for (const std::string& source : {attributionText(results, answer), objectsText(answer)})
-    if (!source.empty()) lines.push_back(source);
-  lines.push_back(fmt::format("Smallest error: {}", choiceText(set, best, selection.metric)));
-  if (!cheapest) return lines;
-  lines.push_back(fmt::format("Cheapest within {:.0f} % of it: {}", 100 * (kGoodEnough - 1),
-                              choiceText(set, *cheapest, selection.metric)));
-  const std::vector<Step> steps = stepsFrom(set, *cheapest);
-  if (const Step* up = bestStepUp(steps)) lines.push_back("From there, " + stepText(*up));
-  if (const Step* down = bestStepDown(steps)) lines.push_back("From there, " + stepText(*down));
-  const Recommendation whole = recommend(results, {});
-  if (whole.knee)
-    lines.push_back("Knee, after which more time buys less: " + choiceText(set, *whole.knee, selection.metric));
-  lines.push_back(fmt::format("Other limits: probebench recommend {} --max-error {} | --budget-ms Y | --budget-ratio Y",
-                              settings.runDirectory, limitText(selection.metric, set.candidates[best].loss)));
+// The smallest error and the cheapest that is nearly as good, which may be the same.
+std::vector<std::string> choiceLines(const Findings& findings) {
+  const CandidateSet& set = findings.answer.set;
+  const std::string best = choiceText(set, findings.best, Selection().metric);
+  if (findings.answer.front.empty()) return {"Smallest error: " + best};
+  const std::size_t cheapest = *findings.answer.chosen;
+  if (cheapest == findings.best)
+    return {fmt::format("Smallest error, and the cheapest {}: {}", withinText(findings), best)};
+  return {"Smallest error: " + best,
+          fmt::format("Cheapest {}: {}", withinText(findings), choiceText(set, cheapest, Selection().metric))};
+}
+
+std::vector<std::string> stepLines(const Findings& findings) {
+  std::vector<std::string> lines;
+  if (findings.answer.front.empty()) return lines;
+  const std::vector<Step>& steps = findings.answer.steps;
+  for (const Step* step : {bestStepUp(steps), bestStepDown(steps)})
+    if (step) lines.push_back("From there, " + stepText(*step));
   return lines;
 }
 
-// Where the techniques differ from scene to scene, each scene has its own answer.
-std::string sceneLine(const Results& results, const std::string& scene) {
-  std::vector<CellResult> cells;
-  std::ranges::copy_if(results.cells, std::back_inserter(cells),
-                       [&](const CellResult& cell) { return cell.scene == scene; });
-  Results part;
-  part.cells = std::move(cells);
-  const Selection selection;
-  const CandidateSet set = candidatesOf(part, selection);
-  if (set.candidates.empty()) return {};
-  const std::size_t best = bestOf(set);
-  std::string line = fmt::format("{}: smallest error {}", scene, choiceText(set, best, selection.metric));
-  const std::optional<std::size_t> cheapest = cheapestGoodEnough(set, best);
-  if (cheapest && *cheapest != best)
-    line += fmt::format("; cheapest within {:.0f} %: {}", 100 * (kGoodEnough - 1),
-                        choiceText(set, *cheapest, selection.metric));
+std::vector<std::string> sourceLines(const Results& results, const Findings& findings) {
+  const CandidateSet& set = findings.answer.set;
+  const Candidate& answer = set.candidates[*findings.answer.chosen];
+  std::vector<std::string> lines = {attributionText(results, set, answer), objectsText(answer)};
+  std::erase(lines, "");
+  return lines;
+}
+
+void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
+  lines.insert(lines.end(), more.begin(), more.end());
+}
+
+std::vector<std::string> linesOf(const Results& results, const PrintSettings& settings) {
+  const Findings findings = findingsOf(results);
+  const CandidateSet& set = findings.answer.set;
+  std::vector<std::string> lines = {fmt::format(
+      "{} on {}; error: {}{}; cost: frame time over that of a plain frame", counted(set.candidates.size(), "technique"),
+      counted(set.scenes.size(), "scene"), questionText({}, set), set.scenes.size() == 1 ? "" : ", worst scene")};
+  append(lines, sourceLines(results, findings));
+  append(lines, choiceLines(findings));
+  append(lines, stepLines(findings));
+  if (findings.answer.front.empty()) return lines;
+  if (findings.answer.knee)
+    lines.push_back("Knee, after which more time buys less: " +
+                    choiceText(set, *findings.answer.knee, Selection().metric));
+  lines.push_back(
+      fmt::format("Other limits: probebench recommend {} --max-error {}={} | --budget-ms Y | --budget-ratio Y",
+                  settings.runDirectory, Selection().metric, findings.limit));
+  return lines;
+}
+
+// --- Where the techniques differ from scene to scene, each scene has its own answer.
+
+struct SceneFindings {
+  std::string scene;
+  Results part;  // of that scene alone
+  std::optional<Findings> findings{};
+
+  double smallestError() const { return findings->answer.set.candidates[findings->best].loss.value; }
+};
+
+// By error, the largest first; a scene without a technique to name is left out.
+std::vector<std::unique_ptr<SceneFindings>> findByScene(const Results& results) {
+  std::map<std::string, std::unique_ptr<SceneFindings>> scenes;
+  for (const CellResult& cell : results.cells) {
+    std::unique_ptr<SceneFindings>& scene = scenes[cell.scene];
+    if (!scene) scene = std::make_unique<SceneFindings>(SceneFindings{cell.scene, {}});
+    scene->part.cells.push_back(cell);
+  }
+  std::vector<std::unique_ptr<SceneFindings>> found;
+  for (auto& [name, scene] : scenes) {
+    if (!hasChoice(scene->part)) continue;
+    std::ranges::copy_if(results.attribution, std::back_inserter(scene->part.attribution),
+                         [&](const Attribution& attribution) { return attribution.scene == name; });
+    scene->findings = findingsOf(scene->part);
+    found.push_back(std::move(scene));
+  }
+  std::ranges::stable_sort(found, std::greater(), [](const auto& scene) { return scene->smallestError(); });
+  return found;
+}
+
+std::string sceneLine(const SceneFindings& scene) {
+  const Findings& findings = *scene.findings;
+  const CandidateSet& set = findings.answer.set;
+  std::string line =
+      fmt::format("{}: smallest error {}", scene.scene, choiceText(set, findings.best, Selection().metric));
+  if (*findings.answer.chosen != findings.best)
+    line += fmt::format("; cheapest {}: {}", withinText(findings),
+                        choiceText(set, *findings.answer.chosen, Selection().metric));
   return line;
 }
 
-std::vector<std::string> linesByScene(const Results& results, const PrintSettings& settings) {
-  std::vector<std::string> scenes;
-  for (const CellResult& cell : results.cells)
-    if (std::ranges::find(scenes, cell.scene) == scenes.end()) scenes.push_back(cell.scene);
-  const std::size_t shown = std::min(scenes.size(), kMaxLines - 2);
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < shown; ++i)
-    if (const std::string line = sceneLine(results, scenes[i]); !line.empty()) lines.push_back(line);
-  if (lines.empty()) return lines;
-  if (shown < scenes.size()) lines.push_back(fmt::format("and {} more scenes", scenes.size() - shown));
-  lines.push_back(
-      fmt::format("One scene: probebench recommend {} --scene NAME --max-error flip_hdr=X", settings.runDirectory));
+// What is most important first, as there may be room for the first few only.
+std::vector<std::string> linesOf(const SceneFindings& scene, std::size_t room) {
+  const std::vector<std::string> steps = stepLines(*scene.findings);
+  if (room == 1) return {sceneLine(scene) + (steps.empty() ? "" : "; " + steps.front())};
+  std::vector<std::string> lines = {sceneLine(scene)};
+  std::vector<std::string> details = sourceLines(scene.part, *scene.findings);
+  details.insert(details.begin() + (details.empty() ? 0 : 1), steps.begin(), steps.end());
+  for (std::size_t i = 0; i < std::min(details.size(), room - 1); ++i) lines.push_back("  " + details[i]);
   return lines;
 }
 
-bool hasOwnTechniques(const Results& results) {
-  return std::ranges::any_of(sectionsOf(results.cells), [](const Section& s) { return !s.sequences.empty(); });
+std::vector<std::string> linesByScene(const Results& results, const PrintSettings& settings) {
+  const auto scenes = findByScene(results);
+  if (scenes.empty()) return {};
+  const bool all = scenes.size() < kMaxLines;
+  const std::size_t shown = all ? scenes.size() : kMaxLines - 2;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < shown; ++i) append(lines, linesOf(*scenes[i], (kMaxLines - 1) / shown));
+  if (!all) lines.push_back(fmt::format("and {} with smaller errors", counted(scenes.size() - shown, "scene")));
+  lines.push_back(
+      fmt::format("One scene: probebench recommend {} --scene NAME --max-error flip_hdr=X", settings.runDirectory));
+  return lines;
 }
 
 }  // namespace
@@ -175,7 +266,7 @@ std::vector<std::string> summaryLines(const Results& results, const PrintSetting
   const CandidateSet set = candidatesOf(results, {});
   if (set.candidates.size() < 2 && set.elsewhere > 0) return linesByScene(results, settings);
   if (set.candidates.empty()) return {};
-  return linesOf(results, set, settings);
+  return linesOf(results, settings);
 }
 
 }  // namespace pb

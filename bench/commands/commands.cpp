@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include "bench/version.h"
 #include "scenes/error.h"
+#include "scenes/spec.h"
 
 namespace pb {
 namespace {
@@ -58,6 +60,14 @@ void addCommands(CLI::App& app, const GlobalOptions& globals, Action& action) {
       addBlessCommand,     addMergeCommand,  addAxesCommand,        addScenesCommand, addCertifyCommand,
       addRecommendCommand, addInitCommand,   addSelftestGateCommand};
   for (const auto& add : kCommands) add(app, globals, action);
+}
+
+CLI::Validator positiveNumber() {
+  const auto check = [](const std::string& text) {
+    const std::optional<double> number = parseNumber(text);
+    return number && *number > 0 ? std::string() : fmt::format("wants a number above 0, got '{}'", text);
+  };
+  return {check, "", "positive number"};
 }
 
 std::string printList(const std::vector<std::pair<std::string, std::string>>& rows) {

@@ -44,6 +44,9 @@ void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addScenesCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 void addSelftestGateCommand(CLI::App& app, const GlobalOptions& globals, Action& action);
 
+// For options: a finite number above 0.
+CLI::Validator positiveNumber();
+
 // One line a row, names padded to one width.
 std::string printList(const std::vector<std::pair<std::string, std::string>>& rows);
 

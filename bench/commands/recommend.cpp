@@ -59,9 +59,12 @@ void addRecommendCommand(CLI::App& app, const GlobalOptions&, Action& action) {
   RecommendRequest& request = options->request;
   command->add_option("RUN_DIR", options->run, "folder of a run")->required();
   command->add_option("--max-error", options->maxError, "METRIC=X: the cheapest technique with at most this error");
-  command->add_option("--budget-ms", request.budgetMs, "the best technique with frames of at most this time");
-  command->add_option("--budget-ratio", request.budgetRatio, "likewise, as a multiple of a plain frame");
-  command->add_option("--budget-mb", request.budgetMb, "likewise, memory of the probes in 10^6 bytes");
+  command->add_option("--budget-ms", request.budgetMs, "the best technique with frames of at most this time")
+      ->check(positiveNumber());
+  command->add_option("--budget-ratio", request.budgetRatio, "likewise, as a multiple of a plain frame")
+      ->check(positiveNumber());
+  command->add_option("--budget-mb", request.budgetMb, "likewise, memory of the probes in 10^6 bytes")
+      ->check(positiveNumber());
   command->add_option("--metric", options->metric, "what --budget-.. minimise (default flip_hdr)");
   command->add_option("--scene", request.selection.scenes, "only scenes whose name matches this regular expression");
   command->add_option("--object", request.selection.object, "error of this object or material alone");

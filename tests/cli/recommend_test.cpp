@@ -1,4 +1,5 @@
 // Commands that decide: init, the plan, recommend, --until-decided.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,6 +30,7 @@ TEST(Init, WritesASuiteThatRuns) {
   const ProgramResult written = runProgram({"init", "builtin:planar-floor", "-o", suite});
   ASSERT_EQ(written.exitCode, 0) << written.err;
   EXPECT_THAT(written.out, HasSubstr("1 mirror (1 flat)"));
+  EXPECT_THAT(written.out, HasSubstr("[attribution]\n"));
   EXPECT_EQ(readFile(suite), written.out);
   const ProgramResult run = runProgram({"run", suite, "--dry-run", "--store", folder.file("store")});
   EXPECT_EQ(run.exitCode, 0) << run.err;
@@ -51,6 +53,8 @@ TEST(Recommend, AnswersFromARunAndNamesTheCommandThatRepeatsIt) {
   writeFileAtomically(suite, kSmall);
   const ProgramResult run = runProgram({"run", suite, "--out", out, "--store", store});
   ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("\n2 techniques on 1 scene; error: flip_hdr"));
+  EXPECT_THAT(run.out, testing::EndsWith("\n\nreport: " + out + "/report.html\n"));  // the answer comes last
   const ProgramResult answer = runProgram({"recommend", out, "--max-error", "flip_hdr=1"});
   EXPECT_EQ(answer.exitCode, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("Cheapest: resolution="));
@@ -58,6 +62,9 @@ TEST(Recommend, AnswersFromARunAndNamesTheCommandThatRepeatsIt) {
   EXPECT_EQ(runProgram({"recommend", out, "--max-error", "flip_hdr=0"}).exitCode, 1);
   EXPECT_EQ(runProgram({"recommend", out}).exitCode, 2);
   EXPECT_EQ(runProgram({"recommend", out, "--max-error", "flip=1"}).exitCode, 2);
+  for (const char* budget : {"nan", "inf", "-5", "0", "5x"})
+    EXPECT_THAT(runProgram({"recommend", out, "--budget-ms", budget}).err,
+                HasSubstr(fmt::format("wants a number above 0, got '{}'", budget)));
   EXPECT_EQ(runProgram({"recommend", folder.file("nothing"), "--budget-ms", "1"}).exitCode, 2);
   // The rates of that run tell how long the next one takes.
   const ProgramResult plan = runProgram({"run", suite, "--dry-run", "--store", store});

@@ -1,5 +1,6 @@
 #include "bench/recommend.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -216,6 +217,14 @@ TEST(PrintedRecommendation, WithoutAnAnswer_SaysWhatComesNearest) {
   EXPECT_THAT(text, HasSubstr("No technique of this run holds that. The smallest error: resolution=256"));
 }
 
+TEST(PrintedRecommendation, OfABudgetThatIsTooSmall_NamesTheCheapest) {
+  RecommendRequest request;
+  request.budgetRatio = 0.5;
+  const Results results = oneScene();
+  const std::string text = print(recommend(results, request), request, results, {});
+  EXPECT_THAT(text, HasSubstr("No technique of this run holds that. The cheapest: resolution=64 refresh=static"));
+}
+
 // The cells that --only keeps, by the rule of makePlan().
 std::vector<std::string> keptBy(const std::string& command, const Results& results) {
   const std::size_t begin = command.find("--only '") + 8;
@@ -254,8 +263,14 @@ TEST(RerunCommand, StartsWithTheRunsOwn) {
               testing::StartsWith("probebench run my.toml --set resolution=64,128,256 --only '"));
 }
 
+// The error of the cheaper of the two best techniques, of which one lies within 10 % of the other.
+void setSecondBest(Results& results, double low, double high) {
+  results.cells[1].maskIntervals = {{"flip_hdr", {low, high}}};
+}
+
 TEST(Summary, HasTheAnswerInAtMostTenLines) {
   Results results = oneScene();
+  setSecondBest(results, 0.196, 0.204);
   MaterialError material;
   material.material = "chrome";
   material.share = 0.75;
@@ -265,7 +280,32 @@ TEST(Summary, HasTheAnswerInAtMostTenLines) {
   EXPECT_THAT(lines, Each(Not(HasSubstr("\n"))));
   EXPECT_THAT(lines, testing::Contains(HasSubstr("chrome 75 %")));
   EXPECT_THAT(lines, testing::Contains("Smallest error: resolution=256 refresh=every-frame at 0.190 +- 0.002, 6.00x"));
-  EXPECT_THAT(lines, testing::Contains(HasSubstr("Cheapest within 10 % of it: resolution=128 refresh=every-frame")));
+  EXPECT_THAT(lines, testing::Contains(HasSubstr("Cheapest within 10 % of it (at most 0.209): resolution=128 ")));
+}
+
+// `recommend` looks at the upper end of intervals, and the limit is printed with three digits.
+TEST(Summary, IsWhatRecommendAnswersToTheLimitThatItPrints) {
+  for (const double high : {0.2089, 0.2091}) {
+    Results results = oneScene();
+    setSecondBest(results, 0.19, high);
+    const std::string answer = chosen(recommend(results, maxError(0.209)));
+    EXPECT_EQ(answer, high < 0.209 ? "resolution=128 refresh=every-frame" : "resolution=256 refresh=every-frame");
+    EXPECT_THAT(summaryLines(results), testing::Contains(HasSubstr("(at most 0.209): " + answer)));
+    EXPECT_THAT(summaryLines(results), testing::Contains(HasSubstr("--max-error flip_hdr=0.209 ")));
+  }
+}
+
+TEST(Summary, OfEqualErrors_NamesTheCheapest) {
+  const Results results = resultsOf(
+      {{"a", {{"256", "static", 0.19, 0, 6.0}, {"64", "static", 0.19, 0, 2.0}, {"128", "static", 0.19, 0, 3.0}}}});
+  EXPECT_THAT(summaryLines(results),
+              testing::Contains("Smallest error, and the cheapest within 10 % of it (at most 0.209): resolution=64 at "
+                                "0.190, 2.00x"));
+}
+
+TEST(Summary, OfOneTechnique_CountsOne) {
+  EXPECT_THAT(summaryLines(resultsOf({{"a", {{"64", "static", 0.1, 0, 1.0}}}})).front(),
+              testing::StartsWith("1 technique on 1 scene;"));
 }
 
 TEST(Summary, NamesTheStepsThatTheErrorComesFrom) {
@@ -273,9 +313,29 @@ TEST(Summary, NamesTheStepsThatTheErrorComesFrom) {
   Attribution attribution;
   attribution.scene = "a";
   attribution.technique = results.cells[1].technique;
-  attribution.steps = {{"oracle", {}, {{"flip_hdr", 0.05}}}, {"resolution", {}, {{"flip_hdr", 0.20}}}};
+  attribution.steps = {{"oracle", {}, {{"flip_hdr", 0.05}}},
+                       {"capture", {}, {{"flip_hdr", 0.0501}}},  // 0 %
+                       {"resolution", {}, {{"flip_hdr", 0.20}}}};
   results.attribution = {attribution};
-  EXPECT_THAT(summaryLines(results), testing::Contains(HasSubstr("(a frame 0): resolution 75 %, oracle 25 %")));
+  EXPECT_THAT(summaryLines(results),
+              testing::Contains("Where the error of resolution=128 refresh=every-frame comes from (a frame 0): "
+                                "resolution 75 %, oracle 25 %"));
+}
+
+TEST(Summary, OfSeveralAttributions_TakesTheLastFrameOfTheTechniqueThatIsMostLikeTheAnswer) {
+  Results results = oneScene();  // of which the answer is cell 2
+  for (const std::size_t cell : {std::size_t{1}, std::size_t{3}})
+    for (const int frame : {0, 7}) {
+      Attribution attribution;
+      attribution.scene = "a";
+      attribution.frame = frame;
+      attribution.technique = results.cells[cell].technique;
+      attribution.steps = {{"oracle", {}, {{"flip_hdr", 0.05}}}};
+      results.attribution.push_back(attribution);
+    }
+  EXPECT_THAT(summaryLines(results),
+              testing::Contains("Where the error of resolution=128 refresh=every-frame comes from (a frame 7): oracle "
+                                "100 %"));
 }
 
 TEST(Summary, WhereScenesHaveTheirOwnTechniques_IsByScene) {
@@ -284,6 +344,17 @@ TEST(Summary, WhereScenesHaveTheirOwnTechniques_IsByScene) {
   const std::vector<std::string> lines = summaryLines(results);
   EXPECT_THAT(lines, testing::Contains("a: smallest error resolution=128 at 0.0900, 2.00x"));
   EXPECT_THAT(lines, testing::Contains("b: smallest error refresh=every-frame at 0.200, 1.80x"));
+  EXPECT_THAT(lines, testing::Contains("  From there, resolution 128 -> 64 loses 0.0100 for 0.500x the time"));
+}
+
+TEST(Summary, OfManyScenes_NamesThoseOfTheLargestErrors) {
+  std::vector<std::pair<std::string, std::vector<Choice>>> scenes;
+  for (int i = 0; i < 12; ++i)
+    scenes.push_back({fmt::format("scene {}", i), {{i % 2 == 0 ? "64" : "128", "static", 0.1 * (i + 1), 0, 1.0}}});
+  const std::vector<std::string> lines = summaryLines(resultsOf(scenes));
+  EXPECT_THAT(lines, SizeIs(10));
+  EXPECT_THAT(lines.front(), testing::StartsWith("scene 11: smallest error"));
+  EXPECT_EQ(lines[8], "and 4 scenes with smaller errors");
 }
 
 TEST(Summary, OfNothing_IsNothing) { EXPECT_THAT(summaryLines(Results{}), IsEmpty()); }
