@@ -123,8 +123,17 @@ std::string utcNow() {
   return text;
 }
 
+// What is no baseline may be one that a crash damaged, or a file that was named by mistake.
+Baseline readReplaced(const std::string& path) {
+  try {
+    return readBaseline(path);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}; --force replaces it", error.what()));
+  }
+}
+
 void requireSamePlatform(const Provenance& run, const std::string& baselinePath) {
-  const std::vector<PlatformDifference> differences = platformDifferences(readBaseline(baselinePath).provenance, run);
+  const std::vector<PlatformDifference> differences = platformDifferences(readReplaced(baselinePath).provenance, run);
   if (!differences.empty())
     throwInputError("baseline '{}' was made on another platform: {}; --force replaces it", baselinePath,
                     describe(differences));

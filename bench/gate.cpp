@@ -227,11 +227,11 @@ class Comparison {
       return a.level != b.level ? a.level < b.level : a.excess > b.excess;
     });
     if (report_.count(Level::fail) > 0)
-      report_.verdict = Verdict::fail;
+      report_.verdict = GateVerdict::fail;
     else if (!report_.noisyCells.empty() || report_.count(Level::unconfirmed) > 0)
-      report_.verdict = Verdict::inconclusive;
+      report_.verdict = GateVerdict::inconclusive;
     else if (!report_.samePlatform)
-      report_.verdict = Verdict::drift;
+      report_.verdict = GateVerdict::drift;
   }
 
   const Results& run_;
@@ -260,14 +260,14 @@ GateReport check(const Results& run, const Baseline& baseline, const AxisValues&
   return Comparison(run, baseline, defaults, rerun).make();
 }
 
-int exitCode(Verdict verdict) {
+int exitCode(GateVerdict verdict) {
   switch (verdict) {
-    case Verdict::pass:
+    case GateVerdict::pass:
       return 0;
-    case Verdict::fail:
+    case GateVerdict::fail:
       return static_cast<int>(Failure::verdict);
-    case Verdict::inconclusive:
-    case Verdict::drift:
+    case GateVerdict::inconclusive:
+    case GateVerdict::drift:
       return static_cast<int>(Failure::inconclusive);
   }
   return static_cast<int>(Failure::verdict);

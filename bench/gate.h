@@ -31,10 +31,10 @@ struct Finding {
 
 // Exit codes 0, 1, 4, 4. inconclusive: nothing fails, but some references are too noisy to say so or a cost is not
 // confirmed; drift: nothing fails, but the baseline was made on another platform.
-enum class Verdict { pass, fail, inconclusive, drift };
+enum class GateVerdict { pass, fail, inconclusive, drift };
 
 struct GateReport {
-  Verdict verdict = Verdict::pass;
+  GateVerdict verdict = GateVerdict::pass;
   std::vector<Finding> findings;     // by level, the largest excess first
   std::vector<std::string> notes;    // one sentence each: what was not compared and why, what else differs
   std::vector<std::string> cells;    // every cell of either side, by shortKey()
@@ -51,7 +51,7 @@ struct GateReport {
 // measurement of some of the costs, by the same program; an input Error if it is of another.
 GateReport check(const Results& run, const Baseline& baseline, const AxisValues& defaults = {},
                  const Results* rerun = nullptr);
-int exitCode(Verdict verdict);
+int exitCode(GateVerdict verdict);
 
 struct GateCommands {
   std::string bless;    // printed when something differs

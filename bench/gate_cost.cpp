@@ -8,6 +8,7 @@
 
 #include "bench/platform.h"
 #include "bench/significance.h"
+#include "bench/statistics.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -16,9 +17,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Costs = std::map<std::string, const CostResult*>;  // by sequence
-
-RatioSample sampleOf(const BaselineCost& cost) { return {cost.ratio, cost.ratioLow, cost.ratioHigh, cost.ratios}; }
-RatioSample sampleOf(const CostResult& cost) { return {cost.ratio, cost.ratioLow, cost.ratioHigh, cost.ratios}; }
 
 // What was measured of a sequence on both sides.
 struct Pair {
@@ -31,11 +29,8 @@ struct Ratios {
   double before, after;
 };
 
-Ratios ratiosOf(const Pair& pair) {
-  const RatioSample before = sampleOf(*pair.before), after = sampleOf(*pair.after);
-  const bool byRepetitions = haveRepetitions(before, after);
-  return {typicalRatio(before, byRepetitions), typicalRatio(after, byRepetitions)};
-}
+// Medians of the repetitions, which are what is compared.
+Ratios ratiosOf(const Pair& pair) { return {median(pair.before->ratios), median(pair.after->ratios)}; }
 
 // As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline.
 double limitOf(const Ratios& ratios, double plainMs) {
@@ -60,8 +55,7 @@ std::vector<Pair> changedAmong(const std::vector<Pair>& pairs) {
   std::vector<double> probabilities;
   for (const Pair& pair : pairs)
     // Below the floors nothing is a finding; 1 never makes another comparison more significant.
-    probabilities.push_back(isAboveFloors(pair) ? equalCostProbability(sampleOf(*pair.before), sampleOf(*pair.after))
-                                                : 1.0);
+    probabilities.push_back(isAboveFloors(pair) ? equalCostProbability(pair.before->ratios, pair.after->ratios) : 1.0);
   const std::vector<double> adjusted = holmAdjusted(probabilities);
   std::vector<Pair> changed;
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -76,6 +70,7 @@ class CostComparison {
     if (rerun == nullptr) return;
     requireRerun(*rerun);
     rerun_ = costsOf(*rerun);
+    std::erase_if(rerun_, [](const auto& cost) { return cost.second->ratios.size() < kFewestRepetitions; });
   }
 
   CostFindings make() {
@@ -84,6 +79,10 @@ class CostComparison {
       return std::move(found_);
     }
     const std::vector<Pair> pairs = pairUp();
+    if (tooFew_ > 0)
+      found_.notes.push_back(
+          fmt::format("The cost of {} sequences was not compared: a comparison wants {} repetitions on both sides.",
+                      tooFew_, kFewestRepetitions));
     found_.compared = pairs.size();
     const std::vector<Pair> changed = changedAmong(pairs);
     const std::set<std::string> confirmed = findConfirmed(changed);
@@ -134,12 +133,19 @@ class CostComparison {
     for (const auto& [key, before] : baseline_.costs) {
       const std::string sequence = shortKey(key, defaults_);
       if (const auto after = costs_.find(sequence); after != costs_.end())
-        pairs.push_back({sequence, &before, after->second});
+        addPair({sequence, &before, after->second}, pairs);
       else if (sequences.contains(sequence))
         found_.findings.push_back(
             {FindingKind::missing, sequence, "cost", std::nullopt, std::nullopt, 0, kInfinity, Level::fail});
     }
     return pairs;
+  }
+
+  void addPair(const Pair& pair, std::vector<Pair>& pairs) {
+    if (haveRepetitions(pair.before->ratios, pair.after->ratios))
+      pairs.push_back(pair);
+    else
+      ++tooFew_;
   }
 
   // Those that changed in the second measurement too, the same way.
@@ -174,6 +180,7 @@ class CostComparison {
   const Baseline& baseline_;
   const AxisValues& defaults_;
   Costs costs_, rerun_;
+  std::size_t tooFew_ = 0;  // sequences without enough repetitions
   CostFindings found_;
 };
 

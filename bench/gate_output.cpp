@@ -78,7 +78,7 @@ std::string printGateReport(const GateReport& report, const GateCommands& comman
   if (report.count(Level::unconfirmed) > 0)
     text += fmt::format("\nA changed cost counts once a second measurement confirms it: {}\n", commands.confirm);
   // Noise is never as it should be: `bless` refuses it.
-  if (report.verdict == Verdict::fail || report.verdict == Verdict::drift)
+  if (report.verdict == GateVerdict::fail || report.verdict == GateVerdict::drift)
     text += fmt::format("\nIf this is as it should be: {}\n", commands.bless);
   return text;
 }

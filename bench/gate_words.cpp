@@ -8,15 +8,15 @@
 
 namespace pb {
 
-const char* nameOf(Verdict verdict) {
+const char* nameOf(GateVerdict verdict) {
   switch (verdict) {
-    case Verdict::pass:
+    case GateVerdict::pass:
       return "pass";
-    case Verdict::fail:
+    case GateVerdict::fail:
       return "fail";
-    case Verdict::inconclusive:
+    case GateVerdict::inconclusive:
       return "inconclusive";
-    case Verdict::drift:
+    case GateVerdict::drift:
       return "drift";
   }
   return "";

@@ -8,7 +8,7 @@
 
 namespace pb {
 
-const char* nameOf(Verdict verdict);
+const char* nameOf(GateVerdict verdict);
 const char* nameOf(FindingKind kind);
 const char* nameOf(Level level);
 

@@ -5,27 +5,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "bench/statistics.h"
+
 namespace pb {
-namespace {
-
-// Two-sided 95 % quantiles of Student's t with 1 to 15 degrees of freedom (any table); beyond, that of 15 is on the
-// safe side.
-constexpr double kStudentT[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
-                                2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131};
-
-double studentT(std::size_t degreesOfFreedom) {
-  return kStudentT[std::clamp<std::size_t>(degreesOfFreedom, 1, std::size(kStudentT)) - 1];
-}
-
-}  // namespace
-
 Interval jackknifeInterval(double value, std::span<const double> replicates) {
   assert(replicates.size() >= 2);
   const double n = static_cast<double>(replicates.size());
   const double mean = std::accumulate(replicates.begin(), replicates.end(), 0.0) / n;
   double squares = 0;
   for (const double replicate : replicates) squares += (replicate - mean) * (replicate - mean);
-  const double reach = studentT(replicates.size() - 1) * std::sqrt((n - 1) / n * squares);
+  const double reach = studentT975(replicates.size() - 1) * std::sqrt((n - 1) / n * squares);
   const double unbiased = value - (n - 1) * (mean - value);
   return {std::min(value, unbiased) - reach, std::max(value, unbiased) + reach};
 }

@@ -38,8 +38,21 @@ Json parseJson(const std::string& text, const std::string& place) {
   }
 }
 
+// What else a document of this program is by its version key; empty for other JSON.
+std::string_view otherKindOf(const Json& document) {
+  constexpr std::pair<std::string_view, std::string_view> kKinds[] = {
+      {"baseline_version", "a baseline"}, {"schema_version", "the results of a run"}, {"job_version", "a job"}};
+  if (document.is_object())
+    for (const auto& [key, kind] : kKinds)
+      if (document.contains(key)) return kind;
+  return "";
+}
+
 void requireVersion(const Json& document, const std::string& place, const DocumentFormat& format) {
-  if (!document.is_object() || !document.contains(format.versionKey))
+  const bool isForeign = !document.is_object() || !document.contains(format.versionKey);
+  if (const std::string_view kind = otherKindOf(document); isForeign && !kind.empty())
+    throwInputError("'{}' is {}, not a {} file", place, kind, format.name);
+  if (isForeign)
     throwInputError("'{}' is not a probebench {} file: it has no '{}'", place, format.name, format.versionKey);
   const Json& version = document.at(std::string(format.versionKey));
   if (version != format.version)

@@ -98,8 +98,8 @@ RepeatOutcome GateSelftest::repeat(int runs, const std::function<void(int)>& don
     }
     ++outcome.runs;
     outcome.costsCompared = outcome.costsCompared && report.costsCompared > 0;
-    if (report.verdict == Verdict::fail) ++outcome.alarms;
-    if (report.verdict != Verdict::pass) outcome.bad.push_back(report);
+    if (report.verdict == GateVerdict::fail) ++outcome.alarms;
+    if (report.verdict != GateVerdict::pass) outcome.bad.push_back(report);
     const std::string text = withoutCost(now);
     if (first.empty()) first = text;
     if (text != first) ++outcome.differing;

@@ -35,7 +35,7 @@ struct SelftestContext {
 struct FaultOutcome {
   std::string name;
   GateReport report;
-  bool isCaught() const { return report.verdict == Verdict::fail; }
+  bool isCaught() const { return report.verdict == GateVerdict::fail; }
 };
 
 struct RepeatOutcome {

@@ -44,7 +44,7 @@ TEST(Baseline, JsonRoundTrip_IsExactAndGatesAlike) {
   EXPECT_EQ(read.reason, "because");
   EXPECT_EQ(read.tolerance, run.tolerance);
   EXPECT_EQ(read.provenance.maxNoise, run.provenance.maxNoise);
-  EXPECT_EQ(check(run, read).verdict, Verdict::pass);
+  EXPECT_EQ(check(run, read).verdict, GateVerdict::pass);
 }
 
 TEST(Baseline, NamesOnlyAxesThatAreNotAtTheirDefault) {

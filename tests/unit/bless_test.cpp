@@ -25,7 +25,7 @@ TEST_F(Bless, WritesWhatCheckPasses) {
   const Results run = samples::makeResults();
   bless(run, path_, "first", false);
   EXPECT_EQ(readBaseline(path_).reason, "first");
-  EXPECT_EQ(check(run, readBaseline(path_)).verdict, Verdict::pass);
+  EXPECT_EQ(check(run, readBaseline(path_)).verdict, GateVerdict::pass);
   bless(run, path_, "second", false);
   EXPECT_EQ(readBaseline(path_).reason, "second");
 }
@@ -85,12 +85,13 @@ TEST_F(Bless, RefusesNoisyReferencesUnlessForced) {
   }
   EXPECT_FALSE(std::filesystem::exists(path_));
   bless(noisy, path_, "why", true);
-  EXPECT_EQ(check(noisy, readBaseline(path_)).verdict, Verdict::inconclusive);
+  EXPECT_EQ(check(noisy, readBaseline(path_)).verdict, GateVerdict::inconclusive);
 }
 
 TEST_F(Bless, ReplacesADamagedBaselineOnlyByForce) {
   writeFileAtomically(path_, "{");
-  EXPECT_THAT(messageOf([&] { bless(samples::makeResults(), path_, "why", false); }), HasSubstr("truncated"));
+  EXPECT_THAT(messageOf([&] { bless(samples::makeResults(), path_, "why", false); }),
+              AllOf(HasSubstr("truncated"), HasSubstr("--force replaces it")));
   bless(samples::makeResults(), path_, "why", true);
   EXPECT_EQ(readBaseline(path_).reason, "why");
 }

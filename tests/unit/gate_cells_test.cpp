@@ -15,13 +15,13 @@ TEST(Gate, MissingAndSurplusCells_BothFail) {
   fewer.cells.erase(fewer.cells.begin() + 2);
 
   const GateReport missing = check(fewer, baselineOf(all));
-  EXPECT_EQ(missing.verdict, Verdict::fail);
+  EXPECT_EQ(missing.verdict, GateVerdict::fail);
   ASSERT_EQ(missing.findings.size(), 1u);
   EXPECT_EQ(missing.findings[0].kind, FindingKind::missing);
   EXPECT_EQ(missing.findings[0].cell, all.cells[2].key());
 
   const GateReport surplus = check(all, baselineOf(fewer));
-  EXPECT_EQ(surplus.verdict, Verdict::fail);
+  EXPECT_EQ(surplus.verdict, GateVerdict::fail);
   ASSERT_EQ(surplus.findings.size(), 1u);
   EXPECT_EQ(surplus.findings[0].kind, FindingKind::surplus);
   EXPECT_EQ(surplus.findings[0].cell, all.cells[2].key());
@@ -37,7 +37,7 @@ TEST(Gate, SequenceWithoutAnyCell_IsNotMissedAsACostAgain) {
 TEST(Gate, EmptyRun_Fails) {
   Results empty = samples::makeResults();
   empty.cells.clear();
-  EXPECT_EQ(verdictOf(samples::makeResults(), empty), Verdict::fail);
+  EXPECT_EQ(verdictOf(samples::makeResults(), empty), GateVerdict::fail);
 }
 
 TEST(Gate, Counters_AreExactInBothDirections) {
@@ -53,7 +53,7 @@ TEST(Gate, Counters_AreExactInBothDirections) {
   }
   Results fewer = before;
   fewer.cells[0].counters.pop_back();
-  EXPECT_EQ(verdictOf(before, fewer), Verdict::fail);
+  EXPECT_EQ(verdictOf(before, fewer), GateVerdict::fail);
 }
 
 TEST(Gate, CounterThatTheBaselineLacks_IsNoted) {
@@ -61,7 +61,7 @@ TEST(Gate, CounterThatTheBaselineLacks_IsNoted) {
   Results before = after;
   before.cells[0].counters.pop_back();
   const GateReport report = check(after, baselineOf(before));
-  EXPECT_EQ(report.verdict, Verdict::pass);
+  EXPECT_EQ(report.verdict, GateVerdict::pass);
   EXPECT_EQ(report.countersCompared, 3u);
   EXPECT_THAT(report.notes, testing::ElementsAre("Counters that the baseline lacks were not compared: probe_bytes."));
 }
@@ -79,7 +79,7 @@ TEST(Gate, BaselineFromBeforeAnAxis_MatchesItsDefault) {
   const Results before = samples::makeResults(), after = withAxis(before, "coats", "none");
   for (const AxisValues& stored : {AxisValues{}, AxisValues(kDefaults.begin(), kDefaults.end() - 1)}) {
     const GateReport report = check(after, makeBaseline(before, "because", "", stored), kDefaults);
-    EXPECT_EQ(report.verdict, Verdict::pass);
+    EXPECT_EQ(report.verdict, GateVerdict::pass);
     EXPECT_EQ(report.cells.size(), 9u);
     EXPECT_EQ(report.metricsCompared, 34u);
     EXPECT_EQ(report.costsCompared, 4u);
@@ -89,7 +89,7 @@ TEST(Gate, BaselineFromBeforeAnAxis_MatchesItsDefault) {
 TEST(Gate, BaselineFromBeforeAnAxis_DoesNotMatchItsOtherValues) {
   Results after = withAxis(runWith(0.5), "coats", "environment");
   const GateReport report = check(after, baselineOf(runWith(0.5)), kDefaults);
-  EXPECT_EQ(report.verdict, Verdict::fail);
+  EXPECT_EQ(report.verdict, GateVerdict::fail);
   ASSERT_EQ(report.findings.size(), 2u);
   EXPECT_EQ(report.findings[0].kind, FindingKind::missing);
   EXPECT_EQ(report.findings[0].cell, "scene=builtin:a camera=main frame=0 refresh=static");
@@ -101,19 +101,19 @@ TEST(Gate, BaselineFromBeforeAnAxis_DoesNotMatchItsOtherValues) {
 TEST(Gate, RunFromBeforeAnAxis_MatchesItsDefault) {
   const Results run = samples::makeResults();
   const Baseline baseline = makeBaseline(withAxis(run, "coats", "none"), "because", "", kDefaults);
-  EXPECT_EQ(check(run, baseline, kDefaults).verdict, Verdict::pass);
+  EXPECT_EQ(check(run, baseline, kDefaults).verdict, GateVerdict::pass);
 }
 
 TEST(Gate, AxisThatTheProgramDoesNotKnow_DoesNotMatch) {
   const Results run = runWith(0.5);
-  EXPECT_EQ(check(run, baselineOf(withAxis(run, "removed", "none")), kDefaults).verdict, Verdict::fail);
+  EXPECT_EQ(check(run, baselineOf(withAxis(run, "removed", "none")), kDefaults).verdict, GateVerdict::fail);
 }
 
 // The keys mean what they meant when they were written.
 TEST(Gate, ChangedDefault_MatchesTheValueItHad) {
   const Results run = samples::makeResults();
   const Baseline baseline = makeBaseline(run, "because", "", {{"resolution", "64"}});
-  EXPECT_EQ(check(run, baseline, {{"resolution", "128"}}).verdict, Verdict::pass);
+  EXPECT_EQ(check(run, baseline, {{"resolution", "128"}}).verdict, GateVerdict::pass);
 }
 
 TEST(Gate, CellsThatDifferByADefaultOnly_AreRefused) {
@@ -126,7 +126,7 @@ TEST(Gate, FailedControl_FailsTheRun) {
   Results after = runWith(0.5);
   after.provenance.controlOutcome = "relMSE 1e-3 > 1e-5";
   const GateReport report = check(after, baselineOf(runWith(0.5)));
-  EXPECT_EQ(report.verdict, Verdict::fail);
+  EXPECT_EQ(report.verdict, GateVerdict::fail);
   EXPECT_EQ(report.findings.at(0).kind, FindingKind::control);
 }
 
@@ -135,7 +135,7 @@ TEST(Gate, ChangedSuiteAndScene_AreNoted) {
   after.provenance.suiteHash = "beef";
   after.provenance.sceneHashes["builtin:a"] = "bbbb";
   const GateReport report = check(after, baselineOf(runWith(0.5)));
-  EXPECT_EQ(report.verdict, Verdict::pass);
+  EXPECT_EQ(report.verdict, GateVerdict::pass);
   EXPECT_THAT(report.notes, testing::Contains(HasSubstr("suite has changed")));
   EXPECT_THAT(report.notes, testing::Contains(HasSubstr("'builtin:a'")));
 }

@@ -39,7 +39,7 @@ inline Results withNoise(Results run, double noise) {
 
 inline Baseline baselineOf(const Results& run) { return makeBaseline(run, "because", "2026-01-31T12:00:00Z"); }
 
-inline Verdict verdictOf(const Results& before, const Results& after) {
+inline GateVerdict verdictOf(const Results& before, const Results& after) {
   return check(after, baselineOf(before)).verdict;
 }
 

@@ -10,7 +10,7 @@ struct MetricRule {
   const char* name;
   Tolerance tolerance;
   double before, after;
-  Verdict verdict;
+  GateVerdict verdict;
 };
 
 class GateMetricRule : public testing::TestWithParam<MetricRule> {};
@@ -24,33 +24,33 @@ TEST_P(GateMetricRule, GivesItsVerdict) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, GateMetricRule,
-    testing::Values(MetricRule{"equal", plain(0, 0), 0.5, 0.5, Verdict::pass},
-                    MetricRule{"exact_is_exact", plain(0, 0), 0.5, std::nextafter(0.5, 1.0), Verdict::fail},
-                    MetricRule{"within_absolute", plain(0.25, 0), 0.5, 0.75, Verdict::pass},
-                    MetricRule{"beyond_absolute", plain(0.25, 0), 0.5, 0.76, Verdict::fail},
-                    MetricRule{"better_beyond_absolute", plain(0.25, 0), 0.5, 0.24, Verdict::fail},
-                    MetricRule{"within_relative", plain(0, 0.5), 0.5, 0.75, Verdict::pass},
-                    MetricRule{"beyond_relative", plain(0, 0.5), 0.5, 0.76, Verdict::fail},
-                    MetricRule{"better_beyond_relative", plain(0, 0.5), 0.5, 0.24, Verdict::fail},
-                    MetricRule{"larger_of_both_counts", plain(0.3, 0.5), 0.5, 0.79, Verdict::pass},
-                    MetricRule{"any_needs_one", any({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.7, Verdict::pass},
-                    MetricRule{"any_fails_beyond_all", any({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.8, Verdict::fail},
-                    MetricRule{"all_needs_every_one", all({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.7, Verdict::fail},
-                    MetricRule{"all_passes_within_all", all({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.505,
-                               Verdict::pass},
-                    MetricRule{"nan_for_a_number", plain(9, 9), 0.5, kNan, Verdict::fail},
-                    MetricRule{"number_for_a_nan", plain(9, 9), kNan, 0.5, Verdict::fail},
-                    MetricRule{"nan_stays", plain(0, 0), kNan, kNan, Verdict::pass},
-                    MetricRule{"infinity_for_a_number", plain(9, 9), 0.5, kInfinity, Verdict::fail},
-                    MetricRule{"number_for_an_infinity", plain(9, 9), kInfinity, 0.5, Verdict::fail},
-                    MetricRule{"infinity_stays", plain(0, 0), kInfinity, kInfinity, Verdict::pass},
-                    MetricRule{"infinity_changes_sign", plain(9, 9), kInfinity, -kInfinity, Verdict::fail}),
+    testing::Values(
+        MetricRule{"equal", plain(0, 0), 0.5, 0.5, GateVerdict::pass},
+        MetricRule{"exact_is_exact", plain(0, 0), 0.5, std::nextafter(0.5, 1.0), GateVerdict::fail},
+        MetricRule{"within_absolute", plain(0.25, 0), 0.5, 0.75, GateVerdict::pass},
+        MetricRule{"beyond_absolute", plain(0.25, 0), 0.5, 0.76, GateVerdict::fail},
+        MetricRule{"better_beyond_absolute", plain(0.25, 0), 0.5, 0.24, GateVerdict::fail},
+        MetricRule{"within_relative", plain(0, 0.5), 0.5, 0.75, GateVerdict::pass},
+        MetricRule{"beyond_relative", plain(0, 0.5), 0.5, 0.76, GateVerdict::fail},
+        MetricRule{"better_beyond_relative", plain(0, 0.5), 0.5, 0.24, GateVerdict::fail},
+        MetricRule{"larger_of_both_counts", plain(0.3, 0.5), 0.5, 0.79, GateVerdict::pass},
+        MetricRule{"any_needs_one", any({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.7, GateVerdict::pass},
+        MetricRule{"any_fails_beyond_all", any({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.8, GateVerdict::fail},
+        MetricRule{"all_needs_every_one", all({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.7, GateVerdict::fail},
+        MetricRule{"all_passes_within_all", all({plain(0.01, 0), plain(0, 0.5)}), 0.5, 0.505, GateVerdict::pass},
+        MetricRule{"nan_for_a_number", plain(9, 9), 0.5, kNan, GateVerdict::fail},
+        MetricRule{"number_for_a_nan", plain(9, 9), kNan, 0.5, GateVerdict::fail},
+        MetricRule{"nan_stays", plain(0, 0), kNan, kNan, GateVerdict::pass},
+        MetricRule{"infinity_for_a_number", plain(9, 9), 0.5, kInfinity, GateVerdict::fail},
+        MetricRule{"number_for_an_infinity", plain(9, 9), kInfinity, 0.5, GateVerdict::fail},
+        MetricRule{"infinity_stays", plain(0, 0), kInfinity, kInfinity, GateVerdict::pass},
+        MetricRule{"infinity_changes_sign", plain(9, 9), kInfinity, -kInfinity, GateVerdict::fail}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Gate, SameRun_PassesAndComparesEverything) {
   const Results run = samples::makeResults();
   const GateReport report = check(run, baselineOf(run));
-  EXPECT_EQ(report.verdict, Verdict::pass);
+  EXPECT_EQ(report.verdict, GateVerdict::pass);
   EXPECT_TRUE(report.findings.empty());
   EXPECT_EQ(report.cells.size(), 9u);
   EXPECT_EQ(report.metricsCompared, 34u);   // 8 cells x 2 metrics x {whole, mask}, 1 cell without mask
@@ -63,9 +63,9 @@ TEST(Gate, UndefinedMetric_MustStayUndefined) {
   before.tolerance = {{"ssim", plain(9, 9)}};
   Results without = before;
   without.cells[0].metrics.ssim.reset();
-  EXPECT_EQ(verdictOf(without, without), Verdict::pass);
-  EXPECT_EQ(verdictOf(before, without), Verdict::fail);
-  EXPECT_EQ(verdictOf(without, before), Verdict::fail);
+  EXPECT_EQ(verdictOf(without, without), GateVerdict::pass);
+  EXPECT_EQ(verdictOf(before, without), GateVerdict::fail);
+  EXPECT_EQ(verdictOf(without, before), GateVerdict::fail);
 }
 
 TEST(Gate, MaskIsGatedAsTheWholeImageIs) {
@@ -99,10 +99,10 @@ TEST(Gate, LargestExcess_StandsFirst) {
 }
 
 TEST(Gate, ExitCodes_AreThoseOfTheCommandLine) {
-  EXPECT_EQ(exitCode(Verdict::pass), 0);
-  EXPECT_EQ(exitCode(Verdict::fail), 1);
-  EXPECT_EQ(exitCode(Verdict::inconclusive), 4);
-  EXPECT_EQ(exitCode(Verdict::drift), 4);
+  EXPECT_EQ(exitCode(GateVerdict::pass), 0);
+  EXPECT_EQ(exitCode(GateVerdict::fail), 1);
+  EXPECT_EQ(exitCode(GateVerdict::inconclusive), 4);
+  EXPECT_EQ(exitCode(GateVerdict::drift), 4);
 }
 
 TEST(GateIntegrity, IsComparedWhereItHasATolerance) {
@@ -110,7 +110,7 @@ TEST(GateIntegrity, IsComparedWhereItHasATolerance) {
   before.cells[0].integrity = {{"misplaced_faces", 0}, {"edge_step_mip0", 1.2}};
   Results after = before;
   after.cells[0].integrity = {{"misplaced_faces", 2}, {"edge_step_mip0", 1.21}, {"younger", 3}};
-  EXPECT_EQ(verdictOf(before, after), Verdict::pass);
+  EXPECT_EQ(verdictOf(before, after), GateVerdict::pass);
   before.tolerance.emplace_back(kIntegrityTolerance, plain(0, 0.1));
   const GateReport report = check(after, baselineOf(before));
   ASSERT_EQ(report.findings.size(), 1u);
@@ -129,7 +129,7 @@ Results runWithLevels(double relmse) {
 
 TEST(GateLevels, ChangeBeyondTheWarningLevel_PassesAndIsReported) {
   const GateReport report = check(runWithLevels(0.55), baselineOf(runWithLevels(0.5)));
-  EXPECT_EQ(report.verdict, Verdict::pass);
+  EXPECT_EQ(report.verdict, GateVerdict::pass);
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_EQ(report.findings[0].level, Level::warn);
   EXPECT_NEAR(report.findings[0].limit, 0.02, 1e-15);
@@ -138,7 +138,7 @@ TEST(GateLevels, ChangeBeyondTheWarningLevel_PassesAndIsReported) {
 
 TEST(GateLevels, ChangeBeyondBothLevels_IsOneFailure) {
   const GateReport report = check(runWithLevels(0.65), baselineOf(runWithLevels(0.5)));
-  EXPECT_EQ(report.verdict, Verdict::fail);
+  EXPECT_EQ(report.verdict, GateVerdict::fail);
   ASSERT_EQ(report.findings.size(), 1u);
   EXPECT_NEAR(report.findings[0].limit, 0.1, 1e-15);
 }
@@ -163,9 +163,9 @@ TEST(GateLevels, OfAScene_StandInPlaceOfTheSuites) {
   Results before = runWithLevels(0.5);
   before.sceneTolerances["scene=builtin:a camera=main"] = {{{"relmse", plain(0.2, 0)}}, {}};
   EXPECT_TRUE(check(runWithLevels(0.65), baselineOf(before)).findings.empty());  // nor is there a level `warn`
-  EXPECT_EQ(check(runWithLevels(0.75), baselineOf(before)).verdict, Verdict::fail);
+  EXPECT_EQ(check(runWithLevels(0.75), baselineOf(before)).verdict, GateVerdict::fail);
   before.sceneTolerances = {{"scene=builtin:a camera=other", {{{"relmse", plain(0.2, 0)}}, {}}}};
-  EXPECT_EQ(check(runWithLevels(0.65), baselineOf(before)).verdict, Verdict::fail);
+  EXPECT_EQ(check(runWithLevels(0.65), baselineOf(before)).verdict, GateVerdict::fail);
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ TEST(Gate, NoisyReference_IsInconclusiveUnlessSomethingChanged) {
   const Results before = runWith(0.5);
   Results noisy = withNoise(before, 3.21e-5);
   const GateReport report = check(noisy, baselineOf(before));
-  EXPECT_EQ(report.verdict, Verdict::inconclusive);
+  EXPECT_EQ(report.verdict, GateVerdict::inconclusive);
   EXPECT_TRUE(report.findings.empty());
   EXPECT_THAT(report.noisyCells, testing::ElementsAre(noisy.cells[0].key()));
   noisy.cells[0].metrics.sums.relmse = 1.0;
-  EXPECT_EQ(verdictOf(before, noisy), Verdict::fail);
+  EXPECT_EQ(verdictOf(before, noisy), GateVerdict::fail);
 }
 
 TEST(Gate, NoisyReference_IsSaidOnceAScene) {
@@ -31,10 +31,10 @@ TEST(Gate, NoisyReference_IsSaidOnceAScene) {
 
 TEST(Gate, NoiseAtTheLimitOrWithoutOne_Passes) {
   const Results before = runWith(0.5);
-  EXPECT_EQ(verdictOf(before, withNoise(before, 1e-5)), Verdict::pass);
+  EXPECT_EQ(verdictOf(before, withNoise(before, 1e-5)), GateVerdict::pass);
   Results unlimited = withNoise(before, 1.0);
   unlimited.provenance.maxNoise.reset();
-  EXPECT_EQ(verdictOf(unlimited, unlimited), Verdict::pass);
+  EXPECT_EQ(verdictOf(unlimited, unlimited), GateVerdict::pass);
 }
 
 TEST(Gate, LoosenedMaxNoise_DoesNotPassUnnoticed) {
@@ -43,7 +43,7 @@ TEST(Gate, LoosenedMaxNoise_DoesNotPassUnnoticed) {
   for (const std::optional<double> limit : {std::optional(1.0), std::optional<double>()}) {
     loosened.provenance.maxNoise = limit;
     const GateReport report = check(loosened, baselineOf(before));
-    EXPECT_EQ(report.verdict, Verdict::inconclusive);
+    EXPECT_EQ(report.verdict, GateVerdict::inconclusive);
     EXPECT_THAT(report.notes, testing::Contains(HasSubstr("in the baseline")));
   }
 }

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "bench/results.h"
 
@@ -23,9 +24,14 @@ inline Metrics makeMetrics(double error) {
   return metrics;
 }
 
+// Six repetitions about `ratio`, spread by a factor of `spread` either way.
+inline std::vector<double> repetitionsAbout(double ratio, double spread) {
+  return {ratio / spread, ratio, ratio * spread, ratio, ratio * spread, ratio / spread};
+}
+
 inline CostResult makeCost(double ratio) {
   CostResult cost;
-  cost.repetitions = 10;
+  cost.repetitions = 6;
   cost.plainMs = 4.0;
   cost.frameMs = ratio * cost.plainMs;
   cost.frameMsLow = 0.98 * cost.frameMs;
@@ -33,6 +39,7 @@ inline CostResult makeCost(double ratio) {
   cost.ratio = ratio;
   cost.ratioLow = 0.98 * ratio;
   cost.ratioHigh = 1.02 * ratio;
+  cost.ratios = repetitionsAbout(ratio, 1.02);
   cost.shadowMs = 0.0625;
   cost.captureMs = {0.5, 0.25};
   cost.prefilterMs = 0.125;
