@@ -21,6 +21,9 @@ constexpr const char* kRelmse = "relmse";
 constexpr const char* kMetrics[] = {kFlip,   "flip_ldr", "ssim", "ms_ssim", kRelmse,
                                     "smape", "mae",      "mse",  "psnr",    "max_abs"};
 
+// Errors nearer than this factor are the same for a reader, and no dispute.
+constexpr double kSmallestFactor = 1.05;
+
 using Losses = std::vector<std::optional<Estimate>>;  // by metric
 
 Losses lossesOf(const CellResult& cell) {
@@ -105,9 +108,10 @@ class Audit {
     const int relmse = orderOf(lossesA[kRelmseIndex], lossesB[kRelmseIndex]);
     if (flip * relmse >= 0) return std::nullopt;
     const auto factor = [](double x, double y) { return std::max(x, y) / std::min(x, y); };
-    return MetricDispute{flip < 0 ? &a : &b, relmse < 0 ? &a : &b,
-                         factor(lossesA[kFlipIndex]->value, lossesB[kFlipIndex]->value),
-                         factor(lossesA[kRelmseIndex]->value, lossesB[kRelmseIndex]->value)};
+    const double flipFactor = factor(lossesA[kFlipIndex]->value, lossesB[kFlipIndex]->value);
+    const double relmseFactor = factor(lossesA[kRelmseIndex]->value, lossesB[kRelmseIndex]->value);
+    if (flipFactor < kSmallestFactor || relmseFactor < kSmallestFactor) return std::nullopt;
+    return MetricDispute{flip < 0 ? &a : &b, relmse < 0 ? &a : &b, flipFactor, relmseFactor};
   }
 
   std::vector<MetricDispute> largest(std::size_t count) const {
@@ -188,9 +192,12 @@ std::string metricAuditText(const MetricAudit& audit) {
   std::string text = fmt::format(
       "## Do the metrics agree?\n\n{} pairs of techniques on the same scene and frame, ordered by each metric (on the "
       "mask where there is one; MS-SSIM on the whole image). Kendall's tau-b: 1 where two metrics order all pairs "
-      "alike, -1 where oppositely; pairs within their intervals count as ties.\n\n{}\n",
+      "alike, -1 where oppositely; pairs within their 95 % intervals count as ties, those of metrics without an "
+      "interval "
+      "(mae, smape, psnr, max_abs) only where the values are the same.\n\n{}\n",
       audit.pairs, toMarkdown(agreementTable(audit)));
-  text += fmt::format("FLIP-HDR and relMSE order {} pairs oppositely{}\n\n", audit.disputed,
+  text += fmt::format("FLIP-HDR and relMSE order {} {} oppositely, by {:.0f} % or more in both{}\n\n", audit.disputed,
+                      audit.disputed == 1 ? "pair" : "pairs", 100 * (kSmallestFactor - 1),
                       audit.disputes.empty() ? "." : ", most clearly these:");
   if (!audit.disputes.empty()) text += toMarkdown(disputeTable(audit)) + '\n';
   return text;

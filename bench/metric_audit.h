@@ -1,5 +1,6 @@
 // Do the metrics agree on which technique is better? Pairs of techniques on the same scene, camera and frame are
-// ordered by each metric; pairs whose 95 % intervals overlap are ties.
+// ordered by each metric; pairs whose 95 % intervals overlap are ties, as are equal values of metrics without
+// intervals.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +19,11 @@ struct MetricAgreement {
   double tauB = 0;
 };
 
-// Two cells of which FLIP calls the first better and relMSE the second.
+// Two cells of which FLIP calls the first better and relMSE the second, both by 5 % at least.
 struct MetricDispute {
   const CellResult* byFlip = nullptr;
   const CellResult* byRelmse = nullptr;
-  double flipFactor = 1, relmseFactor = 1;  // by which the other's error is larger; both > 1
+  double flipFactor = 1, relmseFactor = 1;  // by which the other's error is larger
 };
 
 struct MetricAudit {

@@ -22,14 +22,22 @@ struct ReportOptions {
   double pageMb = kDefaultPageMb;
 };
 
+// A report without some pictures is still a report.
+void warnOfMissing(const std::vector<std::string>& pictures) {
+  if (pictures.empty()) return;
+  fmt::print(stderr, "warning: {} {} missing or damaged and not in the page; the first: {}\n", pictures.size(),
+             pictures.size() == 1 ? "picture is" : "pictures are", pictures.front());
+}
+
 int reportRun(const ReportOptions& options) {
   const Results results = readResults(options.run);
   const AxisValues defaults = describe(Technique());
   const std::vector<std::string> answer = summaryLines(results, {options.run, defaults});
+  if (!options.output.empty()) makeReportFolder(options.output);  // before anything is printed
   fmt::print("{}", options.brief ? makeBrief(results, answer) : makeReport(results, defaults));
   if (options.output.empty()) return 0;
   writeReport(results, options.output, defaults);
-  writePage({{"", options.run, results}}, answer, pageOfRun(options.output), options.pageMb);
+  warnOfMissing(writePage({{"", options.run, results}}, answer, pageOfRun(options.output), options.pageMb));
   fmt::print(stderr, "report: {}\n", pageOfRun(options.output));
   return 0;
 }
@@ -39,13 +47,13 @@ int reportChange(const ReportOptions& options) {
   const Results before = readResults(options.run), after = readResults(options.other);
   const AxisValues defaults = describe(Technique());
   const std::string text = makeComparisonReport(before, after, defaults);
+  if (!options.output.empty()) makeReportFolder(options.output);
   fmt::print("{}", text);
   if (options.output.empty()) return 0;
-  makeReportFolder(options.output);
   writeFileAtomically(options.output + "/report.md", text);
   writeFileAtomically(options.output + "/report.csv", comparisonToCsv(before, after, defaults));
-  writePage({{"before", options.run, before}, {"after", options.other, after}},
-            summaryLines(after, {options.other, defaults}), pageOfRun(options.output), options.pageMb);
+  warnOfMissing(writePage({{"before", options.run, before}, {"after", options.other, after}},
+                          summaryLines(after, {options.other, defaults}), pageOfRun(options.output), options.pageMb));
   fmt::print(stderr, "report: {}\n", pageOfRun(options.output));
   return 0;
 }

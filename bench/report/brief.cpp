@@ -18,7 +18,8 @@ std::string techniqueText(const Section& section, const Sequence& sequence) {
   std::vector<std::string> axes;
   for (const VaryingAxis& axis : section.axes)
     axes.push_back(fmt::format("{}={}", axis.name, axisValue(sequence, axis.name)));
-  return axes.empty() ? "all" : fmt::format("{}", fmt::join(axes, ", "));
+  if (const std::string external = axisValue(sequence, kExternalAxis); !external.empty()) return external;
+  return axes.empty() ? "the only technique" : fmt::format("{}", fmt::join(axes, ", "));
 }
 
 std::string numbersText(const Section& section, const Sequence& sequence) {
@@ -40,8 +41,8 @@ Table tableOf(const std::vector<Section>& sections) {
   Table table{
       {{"scene", Align::left}, {"smallest error", Align::left}, {"FLIP-HDR"}, {"cheapest", Align::left}, {"FLIP-HDR"}},
       {}};
-  for (const Section& section : sections) {
-    if (section.sequences.empty()) continue;
+  for (Section section : sections) {
+    if (section.sequences.empty()) section.sequences = section.externals;
     const Sequence& best = smallest(section, [&](const Sequence& s) { return meanError(s, section.region, kMetric); });
     const Sequence& cheapest =
         smallest(section, [](const Sequence& s) { return s.front()->cost ? s.front()->cost->frameMs : 0.0; });
@@ -57,13 +58,14 @@ Table tableOf(const std::vector<Section>& sections) {
 
 std::string makeBrief(const Results& results, const std::vector<std::string>& answer) {
   const Provenance& p = results.provenance;
-  std::string text = fmt::format("## {}: error and cost of reflection probes\n\n", p.suiteName);
-  for (const std::string& line : answer) text += fmt::format("- {}\n", line);
+  std::string text = fmt::format("## {}: error and cost of reflection probes\n\n", escapeMarkdown(p.suiteName));
+  for (const std::string& line : answer) text += fmt::format("- {}\n", escapeMarkdown(line));
   if (!answer.empty()) text += '\n';
   const std::vector<Section> sections = sectionsOf(results.cells);
   text += toMarkdown(tableOf(sections));
   return text + fmt::format("\n{} cells, control {}; probebench {} ({}), {} {}, {}\n", results.cells.size(),
-                            p.controlOutcome, p.toolVersion, p.gitHash, p.glBackend, p.glRenderer, p.startedAt);
+                            escapeMarkdown(p.controlOutcome), p.toolVersion, p.gitHash, p.glBackend, p.glRenderer,
+                            p.startedAt);
 }
 
 }  // namespace pb

@@ -9,6 +9,8 @@
 #include <map>
 #include <set>
 
+#include "bench/report_verdict.h"
+#include "bench/sections.h"
 #include "bench/tables.h"
 
 namespace pb {
@@ -22,23 +24,26 @@ struct Measured {
   std::optional<Interval> interval{};
 };
 
-std::optional<Measured> errorOf(const CellResult& cell, const std::string& metric) {
-  const Metrics& metrics = cell.maskMetrics ? *cell.maskMetrics : cell.metrics;
-  const MetricIntervals& intervals = cell.maskMetrics ? cell.maskIntervals : cell.intervals;
-  const std::optional<double> value = metricValue(metrics, metric);
+Region regionOf(const CellResult& before, const CellResult& after) {
+  return before.maskMetrics && after.maskMetrics ? Region::mask : Region::whole;
+}
+
+std::optional<Measured> measuredError(const CellResult& cell, Region region, const std::string& metric) {
+  const std::optional<double> value = errorOf(cell, region, metric);
   if (!value || std::isnan(*value)) return std::nullopt;
   Measured measured{*value};
-  for (const auto& [name, interval] : intervals)
+  for (const auto& [name, interval] : region == Region::mask ? cell.maskIntervals : cell.intervals)
     if (name == metric) measured.interval = interval;
+  if (!measured.interval && isNoiseKnown(cell, region, metric)) measured.interval = Interval{*value, *value};
   return measured;
 }
 
-std::optional<Measured> frameMsOf(const CellResult& cell, const std::string&) {
+std::optional<Measured> frameMsOf(const CellResult& cell) {
   if (!cell.cost) return std::nullopt;
   return Measured{cell.cost->frameMs, Interval{cell.cost->frameMsLow, cell.cost->frameMsHigh}};
 }
 
-std::optional<Measured> ratioOf(const CellResult& cell, const std::string&) {
+std::optional<Measured> ratioOf(const CellResult& cell) {
   if (!cell.cost) return std::nullopt;
   return Measured{cell.cost->ratio, Interval{cell.cost->ratioLow, cell.cost->ratioHigh}};
 }
@@ -46,40 +51,57 @@ std::optional<Measured> ratioOf(const CellResult& cell, const std::string&) {
 struct Quantity {
   const char* name;
   const char* title;
-  bool moreIsBetter;
-  std::optional<Measured> (*of)(const CellResult&, const std::string& name);
+  std::optional<Measured> (*costOf)(const CellResult&);  // null: a metric, by its name
 };
 
 constexpr std::array<Quantity, 5> kQuantities = {{
-    {"flip_hdr", "FLIP-HDR", false, errorOf},
-    {"relmse", "relMSE", false, errorOf},
-    {"ssim", "SSIM", true, errorOf},
-    {"frame_ms", "frame ms", false, frameMsOf},
-    {"ratio", "x plain", false, ratioOf},
+    {"flip_hdr", "FLIP-HDR", nullptr},
+    {"relmse", "relMSE", nullptr},
+    {"ssim", "SSIM", nullptr},
+    {"frame_ms", "frame ms", frameMsOf},
+    {"ratio", "x plain", ratioOf},
 }};
 
-constexpr std::pair<Change, const char*> kChangeNames[] = {
-    {Change::better, "better"}, {Change::worse, "worse"}, {Change::equal, "equal"}, {Change::changed, "changed"}};
+constexpr std::pair<Change, const char*> kChangeNames[] = {{Change::better, "better"},
+                                                           {Change::worse, "worse"},
+                                                           {Change::equal, "equal"},
+                                                           {Change::belowFloor, "below the floor"},
+                                                           {Change::changed, "changed"}};
 
 const char* nameOf(Change change) {
   return std::ranges::find(kChangeNames, change, &std::pair<Change, const char*>::first)->second;
 }
 
-Change changeOf(const Measured& before, const Measured& after, bool moreIsBetter) {
-  if (before.value == after.value) return Change::equal;
-  if (!before.interval || !after.interval) return Change::changed;
-  const bool overlap = before.interval->low <= after.interval->high && after.interval->low <= before.interval->high;
-  if (overlap) return Change::equal;
-  return (after.value > before.value) == moreIsBetter ? Change::better : Change::worse;
+Change changeOf(std::optional<Verdict> verdict) {
+  if (!verdict) return Change::changed;
+  switch (*verdict) {
+    case Verdict::better:
+      return Change::better;
+    case Verdict::worse:
+      return Change::worse;
+    case Verdict::belowFloor:
+      return Change::belowFloor;
+    case Verdict::equal:
+      break;
+  }
+  return Change::equal;
 }
 
-std::vector<ComparedValue> compareCells(const CellResult& before, const CellResult& after) {
+Estimate estimateOf(const Measured& cost) { return {cost.value, cost.interval->low, cost.interval->high}; }
+
+std::vector<ComparedValue> compareCells(const CellResult& before, const CellResult& after, bool withCosts) {
   std::vector<ComparedValue> values;
+  const Region region = regionOf(before, after);
   for (const Quantity& quantity : kQuantities) {
-    const std::optional<Measured> a = quantity.of(before, quantity.name), b = quantity.of(after, quantity.name);
-    if (a && b)
-      values.push_back(
-          {quantity.name, a->value, b->value, a->interval, b->interval, changeOf(*a, *b, quantity.moreIsBetter)});
+    const auto of = [&](const CellResult& cell) {
+      return quantity.costOf ? quantity.costOf(cell) : measuredError(cell, region, quantity.name);
+    };
+    if (quantity.costOf && !withCosts) continue;
+    const std::optional<Measured> a = of(before), b = of(after);
+    if (!a || !b) continue;
+    const Change change = changeOf(quantity.costOf ? verdictOf(estimateOf(*b), estimateOf(*a))
+                                                   : knownVerdict(after, before, quantity.name, region));
+    values.push_back({quantity.name, a->value, b->value, a->interval, b->interval, change});
   }
   return values;
 }
@@ -131,7 +153,9 @@ std::string percentText(const ComparedValue& value) {
 }
 
 Table countTable(const Comparison& comparison) {
-  Table table{{{"value", Align::left}, {"better"}, {"worse"}, {"equal"}, {"changed"}, {"largest change"}}, {}};
+  Table table{
+      {{"value", Align::left}, {"better"}, {"worse"}, {"equal"}, {"below the floor"}, {"changed"}, {"largest change"}},
+      {}};
   for (const Quantity& quantity : kQuantities) {
     std::map<Change, int> counts;
     const ComparedValue* largest = nullptr;
@@ -144,7 +168,8 @@ Table countTable(const Comparison& comparison) {
     if (largest)
       table.rows.push_back({quantity.title, std::to_string(counts[Change::better]),
                             std::to_string(counts[Change::worse]), std::to_string(counts[Change::equal]),
-                            std::to_string(counts[Change::changed]), percentText(*largest)});
+                            std::to_string(counts[Change::belowFloor]), std::to_string(counts[Change::changed]),
+                            percentText(*largest)});
   }
   return table;
 }
@@ -159,7 +184,8 @@ Table changeTable(const Comparison& comparison, const Results& after, const Axis
   std::vector<Row> rows;
   for (const ComparedCell& cell : comparison.cells)
     for (const ComparedValue& value : cell.values)
-      if (value.change != Change::equal && value.name != "frame_ms") rows.push_back({&cell, &value});
+      if (value.change != Change::equal && value.change != Change::belowFloor && value.name != "frame_ms")
+        rows.push_back({&cell, &value});
   std::ranges::stable_sort(rows, std::greater(), [](const Row& row) { return sizeOf(*row.value); });
   if (rows.size() > kShownChanges) rows.resize(kShownChanges);
   Table table{
@@ -210,13 +236,15 @@ Comparison compareRuns(const Results& before, const Results& after) {
   std::map<std::string, std::size_t> earlier;
   for (std::size_t i = 0; i < before.cells.size(); ++i) earlier[keyOf(before.cells[i], varying)] = i;
   Comparison comparison;
+  std::set<std::string> withCosts;  // sequences
   for (std::size_t i = 0; i < after.cells.size(); ++i) {
     const auto found = earlier.find(keyOf(after.cells[i], varying));
     if (found == earlier.end()) {
       comparison.onlyAfter.push_back(i);
       continue;
     }
-    comparison.cells.push_back({found->second, i, compareCells(before.cells[found->second], after.cells[i])});
+    const bool isFirst = withCosts.insert(after.cells[i].sequenceKey()).second;
+    comparison.cells.push_back({found->second, i, compareCells(before.cells[found->second], after.cells[i], isFirst)});
     earlier.erase(found);
   }
   for (const auto& [key, index] : earlier) comparison.onlyBefore.push_back(index);
@@ -226,16 +254,18 @@ Comparison compareRuns(const Results& before, const Results& after) {
 
 std::string makeComparisonReport(const Results& before, const Results& after, const AxisValues& defaults) {
   const Comparison comparison = compareRuns(before, after);
-  std::string text =
-      fmt::format("# {}: before and after\n\n{} cells compared", after.provenance.suiteName, comparison.cells.size());
+  std::string text = fmt::format("# {}: before and after\n\n{} cells compared",
+                                 escapeMarkdown(after.provenance.suiteName), comparison.cells.size());
   if (const std::size_t count = comparison.onlyBefore.size()) text += fmt::format(", {} only before", count);
   if (const std::size_t count = comparison.onlyAfter.size()) text += fmt::format(", {} only after", count);
   text += ".\n\n";
   if (!comparison.cells.empty()) {
     text += toMarkdown(countTable(comparison)) + '\n';
     text +=
-        "Errors are those of the mask, where a scene has one. `equal`: the same, or 95 % intervals overlap; `changed`: "
-        "not the same, and no interval is known.\n\n";
+        "Errors are those of the mask, where a scene has one. `equal`: the same, or 95 % intervals overlap; `below the "
+        "floor`: neither is clear of the reference's own noise; `changed`: not the same, and no interval is known. "
+        "Costs "
+        "are counted once a technique and scene, errors once a frame.\n\n";
     const Table changes = changeTable(comparison, after, defaults);
     if (!changes.rows.empty()) text += "What changed most:\n\n" + toMarkdown(changes) + '\n';
   }

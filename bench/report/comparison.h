@@ -10,8 +10,9 @@
 
 namespace pb {
 
-// equal: the same, or the 95 % intervals overlap; changed: differs, and no interval is known for it.
-enum class Change { better, worse, equal, changed };
+// Of errors as bench/verdict.h has it, of costs by their intervals. equal: the same, or the 95 % intervals overlap;
+// belowFloor: differs, but neither error is clear of the reference's noise; changed: differs, and no interval is known.
+enum class Change { better, worse, equal, belowFloor, changed };
 
 struct ComparedValue {
   std::string name;  // flip_hdr, relmse, ssim, frame_ms, ratio
@@ -24,7 +25,9 @@ struct ComparedValue {
 
 struct ComparedCell {
   std::size_t before = 0, after = 0;  // indices into the runs' cells
-  std::vector<ComparedValue> values;  // those that both have; of the mask where there is one
+  // Those that both have; of the mask where there is one. Costs are those of a sequence and stand with the first of its
+  // cells only.
+  std::vector<ComparedValue> values;
 };
 
 // Cells are the same that have the scene, the camera, the frame and all axes in common that vary in one of the runs. So

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
 #include "bench/json_document.h"
+#include "bench/metric_audit.h"
 #include "bench/report/comparison.h"
 #include "bench/report/packed_picture.h"
 #include "bench/report/page_pictures.h"
@@ -127,6 +129,23 @@ Json picturesToJson(const PagePictures& pictures, std::size_t firstBlob) {
   return json;
 }
 
+// Pairs of cells that the metrics order oppositely, those with pictures first.
+Json disputesToJson(const std::vector<CellResult>& cells) {
+  constexpr std::size_t kListed = 50, kShown = 4;
+  MetricAudit audit = auditMetrics(cells, kListed);
+  std::ranges::stable_partition(audit.disputes, [](const MetricDispute& dispute) {
+    return !dispute.byFlip->pictures.rendered.empty() && !dispute.byRelmse->pictures.rendered.empty();
+  });
+  if (audit.disputes.size() > kShown) audit.disputes.resize(kShown);
+  Json json = {{"count", audit.disputed}, {"shown", Json::array()}};
+  for (const MetricDispute& dispute : audit.disputes)
+    json["shown"].push_back({{"byFlip", dispute.byFlip - cells.data()},
+                             {"byRelmse", dispute.byRelmse - cells.data()},
+                             {"flipFactor", encodeNumber(dispute.flipFactor)},
+                             {"relmseFactor", encodeNumber(dispute.relmseFactor)}});
+  return json;
+}
+
 std::string replaced(std::string text, const std::string& mark, const std::string& with) {
   const std::size_t at = text.find(mark);
   if (at == std::string::npos) throw std::logic_error("the page's template lacks " + mark);
@@ -137,8 +156,8 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 
 std::string pageOfRun(const std::string& folder) { return (fs::path(folder) / "report.html").string(); }
 
-void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file,
-               double maxMb) {
+std::vector<std::string> writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer,
+                                   const std::string& file, double maxMb) {
   std::vector<PagePictures> pictures;
   std::vector<std::string> results;
   for (const PageRun& run : runs) {
@@ -160,11 +179,18 @@ void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>&
   }
   if (runs.size() == 2) meta["comparison"] = toJson(compareRuns(runs[0].results, runs[1].results));
 
+  meta["disputes"] = disputesToJson(runs.back().results.cells);
+
   const std::string& suite = runs.back().results.provenance.suiteName;
   const std::string data =
       fmt::format("<script type=\"application/json\" id=\"meta\">{}</script>\n{}", inlineJson(meta), blobs.text());
   const std::string page = replaced(kPageSource, "@title", escapedHtml(suite));
   writeFileAtomically(file, replaced(page, "@data", data));
+
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const std::string& picture : pictures[i].missing) missing.push_back(runs[i].directory + '/' + picture);
+  return missing;
 }
 
 }  // namespace pb

@@ -22,8 +22,9 @@ inline constexpr double kDefaultPageMb = 15;
 
 // Writes `file`. Pictures with which it would be larger than maxMb (10^6 bytes) stand in a folder beside it: that of
 // report.html is report-pictures/. The last run is the page's subject, one before it what it is compared with.
-// `answer`: lines that say what was found, may be empty. Throws environment Errors.
-void writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer, const std::string& file,
-               double maxMb = kDefaultPageMb);
+// `answer`: lines that say what was found, may be empty. Gives the pictures that can't be
+// read, which the page is without. Throws environment Errors.
+std::vector<std::string> writePage(const std::vector<PageRun>& runs, const std::vector<std::string>& answer,
+                                   const std::string& file, double maxMb = kDefaultPageMb);
 
 }  // namespace pb

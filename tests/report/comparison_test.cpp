@@ -48,6 +48,34 @@ TEST(Comparison, WithoutIntervals_ADifferenceHasNoVerdict) {
   EXPECT_EQ(changeOf(makeCell("64", 1.0, Interval{0.9, 1.1}), makeCell("64", 2.0)), Change::changed);
 }
 
+TEST(Comparison, AgainstReferencesWithoutNoise_EveryDifferenceIsExact) {
+  CellResult before = makeCell("64", 0.19), after = makeCell("64", 0.0);
+  for (CellResult* cell : {&before, &after}) cell->floor = {{"mse", 0.0}, {"relmse", 0.0}};
+  EXPECT_EQ(changeOf(before, after), Change::better);
+  EXPECT_EQ(changeOf(after, before), Change::worse);
+}
+
+TEST(Comparison, ErrorsThatAreNotClearOfTheNoise_AreBelowTheFloor) {
+  CellResult before = makeCell("64", 1e-5, Interval{0.9e-5, 1.1e-5}),
+             after = makeCell("64", 2e-5, Interval{1.9e-5, 2.1e-5});
+  for (CellResult* cell : {&before, &after}) cell->floor = {{"relmse", 1e-5}};
+  EXPECT_EQ(changeOf(before, after), Change::belowFloor);
+}
+
+TEST(Comparison, CostsCountOnceASequence) {
+  std::vector<CellResult> cells(3, makeCell("64", 1.0));
+  for (int frame = 0; frame < 3; ++frame) {
+    cells[static_cast<std::size_t>(frame)].frame = frame;
+    cells[static_cast<std::size_t>(frame)].cost = CostResult();
+  }
+  const Comparison comparison = compareRuns(makeRun(cells), makeRun(cells));
+  std::size_t costs = 0;
+  for (const ComparedCell& cell : comparison.cells)
+    costs += static_cast<std::size_t>(std::ranges::count(cell.values, "ratio", &ComparedValue::name));
+  EXPECT_EQ(comparison.cells.size(), 3u);
+  EXPECT_EQ(costs, 1u);
+}
+
 TEST(Comparison, OfCosts_UsesTheirIntervals) {
   const auto withCost = [](double ms, double low, double high) {
     CellResult cell = makeCell("64", 1.0);
@@ -113,6 +141,14 @@ TEST(Brief, HasTheAnswerAndALineAScene) {
   const std::string text = makeBrief(makeRun({makeCell("64", 1.0), makeCell("128", 2.0)}), {"It is the bounces."});
   EXPECT_THAT(text, HasSubstr("- It is the bounces.\n"));
   EXPECT_THAT(text, HasSubstr("| builtin:mirrors"));
+}
+
+TEST(Brief, NamesATechniqueThatIsAlone_AndEscapes) {
+  EXPECT_THAT(makeBrief(makeRun({makeCell("64", 1.0)}), {"<b>"}), HasSubstr("- \\<b>\n"));
+  EXPECT_THAT(makeBrief(makeRun({makeCell("64", 1.0)}), {}), HasSubstr("| the only technique |"));
+  CellResult external = makeCell("64", 1.0);
+  external.technique = {{kExternalAxis, "engine"}};
+  EXPECT_THAT(makeBrief(makeRun({external}), {}), testing::ContainsRegex("builtin:mirrors \\| engine "));
 }
 
 }  // namespace

@@ -56,6 +56,11 @@ TEST(MetricAudit, WhatLiesWithinIntervals_IsATie) {
   EXPECT_THAT(audit.disputes, IsEmpty());
 }
 
+TEST(MetricAudit, ErrorsThatAreNearlyTheSame_AreNoDispute) {
+  EXPECT_EQ(auditMetrics({cellOf("a", "1", 0.100, 2.0), cellOf("a", "2", 0.104, 1.0)}).disputed, 0u);
+  EXPECT_EQ(auditMetrics({cellOf("a", "1", 0.100, 2.0), cellOf("a", "2", 0.106, 1.0)}).disputed, 1u);
+}
+
 TEST(MetricAudit, ComparesOnlyCellsOfOneSceneAndFrame) {
   const std::vector<CellResult> cells = {cellOf("a", "1", 0.1, 2.0), cellOf("b", "2", 0.2, 1.0)};
   EXPECT_EQ(auditMetrics(cells).pairs, 0u);
@@ -80,7 +85,7 @@ TEST(MetricAudit, EachCellStandsInOneDisputeOnly) {
 TEST(MetricAuditText, NamesWhatTheDisputedCellsDifferIn) {
   const std::vector<CellResult> cells = {cellOf("a", "64", 0.1, 3.0), cellOf("a", "128", 0.2, 1.0)};
   const std::string text = metricAuditText(auditMetrics(cells));
-  EXPECT_THAT(text, HasSubstr("FLIP-HDR and relMSE order 1 pairs oppositely"));
+  EXPECT_THAT(text, HasSubstr("FLIP-HDR and relMSE order 1 pair oppositely"));
   EXPECT_THAT(text, HasSubstr("resolution=64"));
   EXPECT_THAT(text, HasSubstr("resolution=128"));
 }
