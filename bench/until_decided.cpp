@@ -44,10 +44,10 @@ Plan trialPlan(const Plan& plan) {
 }
 
 std::string sentenceOf(const Ranking& ranking, const char* reason) {
-  const std::string at = ranking.maxNoise ? fmt::format(" at max_noise {:.3g}", *ranking.maxNoise) : "";
-  if (ranking.isDecided()) return fmt::format("all {} pairs of cells are decided{}", ranking.state.pairs, at);
-  return fmt::format("{} of {} pairs of cells are not decided{}: {}", ranking.state.undecided, ranking.state.pairs, at,
-                     reason);
+  if (ranking.isDecided())
+    return fmt::format("all {} pairs of cells are decided at noise {:.3g}", ranking.state.pairs, ranking.noise);
+  return fmt::format("{} of {} pairs of cells are not decided at noise {:.3g}: {}", ranking.state.undecided,
+                     ranking.state.pairs, ranking.noise, reason);
 }
 
 }  // namespace
@@ -59,24 +59,23 @@ Ranking decideRanking(const RunContext& context, double budgetSeconds) {
   const RunContext trial{suite,           context.scenes, plan, context.device, context.store, context.directory,
                          context.progress};
   std::vector<CellResult> cells = runPlan(trial).cells;
-  Ranking ranking{rankingState(cells, kMetric), suite.reference.maxNoise, {}};
+  Ranking ranking{rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}};
   const char* reason = "more samples would take longer than the budget";
-  double roundSeconds = 0, noise = largestNoise(cells);
+  double roundSeconds = 0;
   while (!ranking.isDecided()) {
     if (secondsSince(start) + roundSeconds > budgetSeconds) break;
     const Clock::time_point round = Clock::now();
-    suite.reference.maxNoise = noise / kStep;
+    const double noise = ranking.noise;
+    suite.reference.maxNoise = std::min(noise / kStep, suite.reference.maxNoise.value_or(noise));
     context.progress.message(
         fmt::format("{} of {} pairs of cells are not decided at noise {:.3g}: next max_noise {:.3g}",
                     ranking.state.undecided, ranking.state.pairs, noise, *suite.reference.maxNoise));
     rescore(trial, cells);
-    ranking = {rankingState(cells, kMetric), suite.reference.maxNoise, {}};
-    const double left = largestNoise(cells);
-    if (!ranking.isDecided() && left > kLeastGain * noise) {
+    ranking = {rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}};
+    if (!ranking.isDecided() && ranking.noise >= kLeastGain * noise) {
       reason = "samples are at their limit";
       break;
     }
-    noise = left;
     roundSeconds = kStep * secondsSince(round);
   }
   ranking.sentence = sentenceOf(ranking, reason);

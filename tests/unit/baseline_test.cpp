@@ -91,7 +91,7 @@ TEST(Baseline, EditedByHand_IsRefused) {
   EXPECT_THAT(refusalOf("/tolerance/flipp", R"({"absolute": 1, "relative": 0})"), HasSubstr("'flipp'"));
   EXPECT_THAT(refusalOf("/warn_tolerance", R"({"mae": {"absolute": 1, "relative": 0}})"), HasSubstr("'mae'"));
   EXPECT_THAT(messageOf([] { baselineFromJson(toJson(samples::makeResults()), "b.json"); }),
-              HasSubstr("not a probebench baseline"));
+              HasSubstr("is the results of a run, not a baseline"));
 }
 
 }  // namespace
