@@ -104,8 +104,9 @@ void finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& su
 // The verdict comes last: what the run leaves open.
 int conclude(const RunOutcome& outcome, const std::optional<Ranking>& ranking) {
   std::vector<std::string> open;
-  if (!outcome.noisyReferences.empty())
-    open.push_back(fmt::format("too noisy references: {}; the first: {}", outcome.noisyReferences.size(),
+  if (const std::size_t count = outcome.noisyReferences.size(); count > 0)
+    open.push_back(fmt::format("{} too noisy; the first: {}",
+                               count == 1 ? "1 reference is" : fmt::format("{} references are", count),
                                outcome.noisyReferences.front()));
   if (ranking && !ranking->isDecided()) open.push_back(ranking->sentence);
   if (!open.empty()) throw Error(Failure::inconclusive, fmt::format("{}", fmt::join(open, "; ")));
