@@ -8,6 +8,7 @@
 #include "bench/cost.h"
 #include "bench/oracle.h"
 #include "bench/truth.h"
+#include "raster/captured_faces.h"
 #include "raster/probe_layout.h"
 
 namespace pb {
@@ -104,9 +105,12 @@ class WorkCounter {
     const double face = static_cast<double>(technique.resolution) * technique.resolution / kMillion + kRender;
     const double samples = megapixels(suite_.image, suite_.image.samplesPerAxis);
     work_.frames += static_cast<std::size_t>(frames);
-    work_.captures += frames * faces;
+    // The first frame captures everything, whatever comes after it.
+    const double captured =
+        static_cast<double>(probes) * capturedFaceCount(technique) * technique.bounces + (frames - 1) * faces;
+    work_.captures += captured;
     work_.units[{"errors", scenes_[sequence.scene]->name}] +=
-        frames * (samples + kRender + faces * face) +
+        frames * (samples + kRender) + captured * face +
         static_cast<double>(sequence.frames.size()) * kScoring * megapixels(suite_.image, 1);
     countCost(block, faces * face);
     countAttribution(sequence, probes);
