@@ -75,6 +75,7 @@ export class Chart {
   draw() {
     this.view?.finalize();
     this.view = undefined;
+    this.element.hidden = false; // what is hidden has no width
     const width = this.plot.clientWidth;
     const colours = themeColours();
     const made = width > 0 && this.makeSpec(width, colours);

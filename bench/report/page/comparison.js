@@ -43,7 +43,7 @@ function columnsOf() {
   return [
     {
       ...text("change", "verdict", (row) => row.change),
-      cell: (row) => element("span", {class: `change ${row.change}`}, row.change),
+      cell: (row) => element("span", {class: `change ${row.change.replaceAll(" ", "-")}`}, row.change),
     },
     text("scene", "scene", (row) => row.cell.scene),
     text("frame", "frame", (row) => String(row.cell.frame)),
@@ -70,7 +70,7 @@ function columnsOf() {
 
 function countText(rows) {
   const count = (change) => rows.filter((row) => row.change === change).length;
-  return ["better", "worse", "equal", "changed"].map((change) => `${count(change)} ${change}`).join(", ");
+  return ["better", "worse", "equal", "below the floor", "changed"].map((change) => `${count(change)} ${change}`).join(", ");
 }
 
 export function comparisonSection(comparison, model) {
@@ -93,7 +93,7 @@ export function comparisonSection(comparison, model) {
   };
   if (known.length) fill(known[0][0]);
   const {onlyBefore, onlyAfter} = comparison;
-  const note = "equal: the same, or the 95 % intervals overlap; changed: not the same, and no interval is known.";
+  const note = "equal: the same, or the 95 % intervals overlap; below the floor: neither is clear of the reference's own noise; changed: not the same, and no interval is known. Costs stand with the first frame of a technique.";
   return section(
     "comparison",
     "Before and after",

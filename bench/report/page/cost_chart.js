@@ -7,6 +7,9 @@ import {paretoFront} from "./pareto.js";
 
 export const costNamed = (key) => COSTS.find((cost) => cost.key === key);
 
+export const knownCosts = (view) =>
+  COSTS.filter((cost) => view.sequences.some((s) => Number.isFinite(cost.of(s.cells[0]) ?? NaN)));
+
 // A choice as the Pareto front sees it: less is better in both.
 function choiceOf(sequence, question, cost) {
   const cell = sequence.cells[0];

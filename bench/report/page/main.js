@@ -3,9 +3,10 @@ import {blob, inflate, setBlobFolder} from "./blobs.js";
 import {cellDetails} from "./cell_details.js";
 import {redrawCharts} from "./chart.js";
 import {comparisonSection} from "./comparison.js";
+import {disputesSection} from "./disputes.js";
 import {announce, choice, element, refill, section} from "./dom.js";
-import {costNamed} from "./cost_chart.js";
-import {COSTS, METRICS, makeModel} from "./model.js";
+import {costNamed, knownCosts} from "./cost_chart.js";
+import {METRICS, makeModel} from "./model.js";
 import {Pictures} from "./pictures.js";
 import {findCell, linkTo, onPlace, readPlace, replacePlace} from "./places.js";
 import {
@@ -104,6 +105,7 @@ class Page {
           section("errors", "Errors and costs", this.about, this.charts),
           section("techniques", "Techniques", this.table),
           section("cell", "Pictures and numbers of a cell", this.details),
+          disputesSection(this.meta.disputes, this.model, this.pictures),
           circumstancesSection(this.model),
         ].filter(Boolean),
       );
@@ -123,7 +125,9 @@ class Page {
     const select = (label, name, options, value = this.settings[name]) =>
       choice(label, options, value, (chosen) => this.setting(name, chosen));
     const titled = (list) => list.map(({key, title}) => ({value: key, title}));
-    const known = COSTS.filter((cost) => view.sequences.some((s) => Number.isFinite(cost.of(s.cells[0]) ?? NaN)));
+    const known = knownCosts(view);
+    // Without measured times there is the probes' memory.
+    if (known.length && !known.some((cost) => cost.key === this.settings.cost)) this.settings.cost = known[0].key;
     const hasMatched = view.sequences.some((s) => s.cells.some((cell) => cell.matched));
     refill(
       this.controls,

@@ -72,6 +72,16 @@ export function worstError(sequence, question) {
   return isMoreBetter(question.metric) ? Math.min(...errors) : Math.max(...errors);
 }
 
+// The smallest value that at least 95 % of the frames don't exceed, where more is better the largest that they reach.
+export function p95Error(sequence, question) {
+  const sign = isMoreBetter(question.metric) ? -1 : 1;
+  const badness = sequence.cells
+    .map((cell) => sign * errorOf(cell, question))
+    .filter((e) => !Number.isNaN(e))
+    .sort((a, b) => a - b);
+  return badness.length ? sign * badness[Math.ceil(0.95 * badness.length - 1e-9) - 1] : NaN;
+}
+
 // Of the mean: the mean of the frames' intervals, as if they failed together.
 export function meanInterval(sequence, question) {
   const intervals = sequence.cells.map((cell) => intervalOf(cell, question));
@@ -104,7 +114,8 @@ function addLabels(view) {
   for (const sequence of view.sequences) {
     const named = view.axes.filter((axis) => axis.name in sequence.technique);
     sequence.label =
-      named.map((axis) => `${axis.name}=${sequence.technique[axis.name]}`).join(" ") || "the only technique";
+      named.map((axis) => `${axis.name}=${sequence.technique[axis.name]}`).join(" ") ||
+      (sequence.technique.external ?? "the only technique");
     for (const cell of sequence.cells) {
       cell.sequence = sequence;
       cell.shortKey = `scene=${view.scene} camera=${view.camera} frame=${cell.frame} ${sequence.label}`;

@@ -1,9 +1,9 @@
 // The sections of the page that show a view's numbers.
 import {numberColumn} from "./cell_details.js";
 import {element, section} from "./dom.js";
-import {costScatter, frontOf} from "./cost_chart.js";
+import {costScatter, frontOf, knownCosts} from "./cost_chart.js";
 import {axisChart, timeCharts} from "./error_charts.js";
-import {COSTS, METRICS, faceAgeOf, isMoreBetter, meanError, worstError} from "./model.js";
+import {COSTS, METRICS, faceAgeOf, isMoreBetter, meanError, p95Error, worstError} from "./model.js";
 import {mean} from "./numbers.js";
 import {linkTo} from "./places.js";
 import {Table} from "./table.js";
@@ -120,7 +120,7 @@ export function chartsOf(context) {
 }
 
 function costColumns(view) {
-  return COSTS.filter((cost) => view.sequences.some((s) => Number.isFinite(cost.of(s.cells[0]) ?? NaN))).map((cost) =>
+  return knownCosts(view).map((cost) =>
     numberColumn(
       cost.key,
       {ratio: "× plain", p99: "p99 ms", renders: "renders"}[cost.key] ?? cost.title,
@@ -140,7 +140,12 @@ export function cellTable(context) {
       return [
         numberColumn(m.key, m.title, (s) => meanError(s, asked)),
         ...(view.frames.length > 1 && m.key === question.metric
-          ? [numberColumn("worst", "worst frame", (s) => worstError(s, asked))]
+          ? [
+              numberColumn("p95", "p95", (s) => p95Error(s, asked), {
+                note: "95 % of the frames do not exceed it: the worst of fewer than 20",
+              }),
+              numberColumn("worst", "worst frame", (s) => worstError(s, asked)),
+            ]
           : []),
       ];
     },
