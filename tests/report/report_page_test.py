@@ -124,6 +124,7 @@ class ReportPage(unittest.TestCase):
             errors = [metric(c, "flip_hdr") for c in cells if tuple(technique(c).values()) == (row["resolution"], row["refresh"], row["bounces"])]
             self.assertEqual(len(errors), 2)
             self.assertEqual(row["flip_hdr"], significant(sum(errors) / 2))
+            self.assertEqual(row["p95"], significant(max(errors)))  # the worst of fewer than 20 frames
             self.assertEqual(row["worst"], significant(max(errors)))
 
     def test_a_cell_shows_the_numbers_of_results_json(self):
@@ -337,6 +338,34 @@ class ReportPage(unittest.TestCase):
         changes = [b - a for a, b in zip([0] + values, values)]
         signs = [("+" if c > 0 else "−" if c < 0 else "") + significant(abs(c)) for c in changes]
         self.assertEqual(shown, signs + [significant(values[-1])])
+
+    def changed_run(self, name, change):
+        shutil.copytree(self.folder / "run", self.folder / name, dirs_exist_ok=True)
+        results = json.loads((self.folder / name / "results.json").read_text())
+        change(results["cells"])
+        (self.folder / name / "results.json").write_text(json.dumps(results))
+        return self.open(report=self.make_report(f"report-{name}", self.folder / name))
+
+    def test_without_times_the_cost_is_memory_and_no_chart_is_blank(self):
+        def without_cost(cells):
+            for cell in cells:
+                cell["cost"] = None
+        page = self.changed_run("no-cost", without_cost)
+        for _ in range(2):  # what was hidden once stays hidden
+            page.script("window.dispatchEvent(new Event('resize'))")
+            page.wait(lambda: page.script("return [...document.querySelectorAll('figure.chart')].every((f) => f.hidden || f.querySelector('svg'))"), "a chart is blank")
+        self.assertIn("probe MiB", page.text("#errors"))
+
+    def test_cells_that_the_metrics_order_oppositely_are_shown_as_pictures(self):
+        def dispute(cells):
+            first, second = cells[0], cells[1]
+            for cell, flip, relmse in ((first, 0.1, 0.4), (second, 0.3, 0.2)):
+                cell["mask_metrics"]["flip_hdr"]["mean"], cell["mask_metrics"]["relmse"] = flip, relmse
+                cell["mask_intervals"] = {}
+        page = self.changed_run("disputed", dispute)
+        text = page.text("#disputes")
+        self.assertIn("FLIP-HDR 0.100, relMSE 0.400", text)
+        page.wait(lambda: len(page.all("#disputes .dispute canvas")) % 6 == 0 and page.all("#disputes canvas"), "pictures of a dispute are missing")
 
     # --- The page itself
 
