@@ -20,8 +20,8 @@ struct Ranking {
 
 // Renders the last measured frame of every sequence, then lowers max_noise by factors of 4 and scores the pictures anew
 // until verdicts by HDR-FLIP decide every pair of cells of a scene, the next step, four times as long as the last one,
-// would not end within the budget, or samples are at their limit. max_noise never rises above the suite's own. The references stay in the store. The context's
-// directory is for the pictures and of no use afterwards.
+// would not end within the budget, or samples are at their limit. max_noise never rises above the suite's own. The
+// references stay in the store. The context's directory is for the pictures and of no use afterwards.
 Ranking decideRanking(const RunContext& context, double budgetSeconds);
 
 }  // namespace pb
