@@ -305,8 +305,8 @@ TEST_P(LightSamples, KeepTheMean) {
   const EmbreeScene embree(*snapshot);
   const LightSampler lights(*snapshot);
   const HiddenInstances hidden(snapshot->instances.size(), 0);
-  const Statistics with = sumOver({*snapshot, embree, hidden, &lights}, c.settings, 60000);
-  const Statistics without = sumOver({*snapshot, embree, hidden, nullptr}, c.settings, 240000);
+  const Statistics with = sumOver({*snapshot, embree, hidden, hidden, &lights}, c.settings, 60000);
+  const Statistics without = sumOver({*snapshot, embree, hidden, hidden, nullptr}, c.settings, 240000);
   EXPECT_NEAR(with.mean, without.mean, kSigmas * std::hypot(with.standardError, without.standardError));
   EXPECT_LT(without.standardError, 0.01 * without.mean);
 }
@@ -360,8 +360,8 @@ TEST(LightSamples, ThroughRoughGlass_KeepTheMean) {
   const EmbreeScene embree(*snapshot);
   const LightSampler lights(*snapshot);
   const HiddenInstances hidden(snapshot->instances.size(), 0);
-  const Statistics with = sumOver({*snapshot, embree, hidden, &lights}, {}, 60000);
-  const Statistics without = sumOver({*snapshot, embree, hidden, nullptr}, {}, 120000);
+  const Statistics with = sumOver({*snapshot, embree, hidden, hidden, &lights}, {}, 60000);
+  const Statistics without = sumOver({*snapshot, embree, hidden, hidden, nullptr}, {}, 120000);
   EXPECT_NEAR(with.mean, without.mean, kSigmas * std::hypot(with.standardError, without.standardError));
 }
 
