@@ -14,8 +14,8 @@ struct FramePair {
   const Mask& mask;  // specular-dominant objects; empty if there are none in sight
 };
 
-// Means over pixels and channels of |(I_f - I_e) - (R_f - R_e)| / (f - e), radiance a frame; the reference's noise adds to
-// it. All images are of one size. frames: f - e, at least 1.
+// Means over pixels and channels of |(I_f - I_e) - (R_f - R_e)| / (f - e), radiance a frame; the reference's noise adds
+// to it. All images are of one size. frames: f - e, at least 1.
 Flicker computeFlicker(const FramePair& frame, const FramePair& before, int frames);
 
 }  // namespace pb

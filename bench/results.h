@@ -67,8 +67,8 @@ struct MatchedErrors {
   MetricValues floor, maskFloor;
 };
 
-// Mean over pixels and channels of |(I_f - I_e) - (R_f - R_e)| / (f - e) for frame f and the measured frame e before it:
-// change that only one of the two renderers shows, radiance a frame.
+// Mean over pixels and channels of |(I_f - I_e) - (R_f - R_e)| / (f - e) for frame f and the measured frame e before
+// it: change that only one of the two renderers shows, radiance a frame.
 struct Flicker {
   double whole = 0;
   std::optional<double> mask{};  // over the pixels of reflective and refractive objects in either frame
@@ -89,14 +89,14 @@ struct CostResult {
   double ratio = 0, ratioLow = 0, ratioHigh = 0;        // frame / plain, median of the repetitions' own ratios
   // Of the repetitions, in their order, of processor time on software GL; older results have none.
   std::vector<double> ratios;
-  std::vector<double> captureMs;                        // by bounce iteration, instrumented run
-  double shadowMs = 0;                                  // shadow maps, instrumented run
-  double prefilterMs = 0;                               // all bounce iterations, instrumented run
-  double finalMs = 0;                                   // instrumented run
-  double rendersPerFrame = 0;                           // cost model: 1 + B * scheduled faces, mean over the frames
-  double measuredRendersPerFrame = 0;                   // 1 + faces captured, mean over the same frames
-  std::string rendersFormula;                           // "6*N*B+1 = 31" or "1+B*faces = 4"
-  std::optional<CostPeaks> peaks;                       // absent in results from before they were recorded
+  std::vector<double> captureMs;       // by bounce iteration, instrumented run
+  double shadowMs = 0;                 // shadow maps, instrumented run
+  double prefilterMs = 0;              // all bounce iterations, instrumented run
+  double finalMs = 0;                  // instrumented run
+  double rendersPerFrame = 0;          // cost model: 1 + B * scheduled faces, mean over the frames
+  double measuredRendersPerFrame = 0;  // 1 + faces captured, mean over the same frames
+  std::string rendersFormula;          // "6*N*B+1 = 31" or "1+B*faces = 4"
+  std::optional<CostPeaks> peaks;      // absent in results from before they were recorded
 };
 
 // Frame times as an external program states them: its own clock, its own idea of a frame.
