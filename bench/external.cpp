@@ -1,10 +1,7 @@
 #include "bench/external.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -31,27 +28,6 @@ constexpr DocumentFormat kTimingFormat{"timing", "timing_version", 1, schemas::k
 constexpr int kSkipped = 77;
 
 std::string whoOf(const ExternalTechnique& technique) { return fmt::format("external technique '{}'", technique.name); }
-
-// Removed with all that is in it.
-class JobFolder {
- public:
-  JobFolder() {
-    std::string name = (fs::temp_directory_path() / "probebench-job-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throwEnvironmentError("no temporary folder '{}' can be made: {}", name, std::strerror(errno));
-    path_ = name;
-  }
-  ~JobFolder() {
-    std::error_code ignored;  // what a program has locked stays behind
-    fs::remove_all(path_, ignored);
-  }
-  JobFolder(const JobFolder&) = delete;
-  JobFolder& operator=(const JobFolder&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 std::string jobPicture(const std::string& folder, int frame) { return fmt::format("{}/{}.exr", folder, frame); }
 std::string jobTiming(const std::string& folder) { return folder + "/timing.json"; }
@@ -179,25 +155,25 @@ void takePictures(const ExternalRequest& request, const std::function<std::strin
 
 ExternalOutcome runCommand(const ExternalRequest& request, const TakePicture& take) {
   const ExternalTechnique& technique = request.technique;
-  const JobFolder folder;
-  saveGlb(*request.frames.front().snapshot->scene, jobScene(folder.path()));
-  const std::string job = folder.path() + "/job.json";
-  writeFileAtomically(job, makeJob(request, folder.path()).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.path().string();
+  saveGlb(*request.frames.front().snapshot->scene, jobScene(folder));
+  const std::string job = temporary.file("job.json");
+  writeFileAtomically(job, makeJob(request, folder).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 
   std::vector<std::string> command = technique.command;
   command.front() = findProgram(command.front(), whoOf(technique));
   command.push_back(job);
-  const ChildResult result =
-      runChild(command, folder.path(), std::chrono::seconds(technique.timeoutS), interruptRequested());
+  const ChildResult result = runChild(command, folder, std::chrono::seconds(technique.timeoutS), interruptRequested());
   requireEnd(technique, result);
   if (result.code == kSkipped) {
     const std::string reason = lastLine(result.lastWords);
     return {reason.empty() ? "it gave no reason" : reason, {}};
   }
   std::optional<ReportedCost> cost;
-  if (request.repetitions > 0 && fs::exists(jobTiming(folder.path()))) cost = readTiming(jobTiming(folder.path()));
+  if (request.repetitions > 0 && fs::exists(jobTiming(folder))) cost = readTiming(jobTiming(folder));
   takePictures(
-      request, [&](int frame) { return jobPicture(folder.path(), frame); }, cost, take);
+      request, [&](int frame) { return jobPicture(folder, frame); }, cost, take);
   return {std::nullopt, lastLine(result.lastWords)};
 }
 

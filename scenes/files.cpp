@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <filesystem>
+#include <cstdlib>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -100,6 +100,20 @@ void writeFileAtomically(const std::string& path, std::string_view bytes) {
   if (failure == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) failure = errno;
   if (failure != 0) ::unlink(temporary.c_str());
   check(failure);
+}
+
+TemporaryFolder::TemporaryFolder() {
+  const auto parent = std::filesystem::temp_directory_path();
+  std::string name = (parent / "probebench-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throwEnvironmentError("can't make a temporary folder in '{}': {}", parent.string(), reason(errno));
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;  // what can't be removed, as a program has locked it, stays behind
+  std::filesystem::permissions(path_, std::filesystem::perms::owner_all, std::filesystem::perm_options::add, ignored);
+  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace pb

@@ -18,6 +18,7 @@
 #include "scenes/gltf/node.h"
 #include "scenes/gltf/skin.h"
 #include "scenes/gltf/validate.h"
+#include "scenes/place.h"
 
 namespace pb {
 namespace {
@@ -188,7 +189,7 @@ Scene buildScene(const std::string& path, const std::string& bytes, const std::o
 
 Scene loadGltf(const std::string& path, const std::optional<Environment>& environment) {
   const std::string bytes = readFile(path);
-  return gltf::atPlace(path, [&] {
+  return atPlace(path, [&] {
     try {
       return buildScene(path, bytes, environment);
     } catch (const Error&) {

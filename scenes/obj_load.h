@@ -1,4 +1,4 @@
-// Wavefront .obj files as scenes, with their .mtl libraries, through tinyobjloader and nowhere else.
+// Wavefront .obj files as scenes, with their .mtl libraries, through tinyobjloader (scenes/obj, and nowhere else).
 #pragma once
 
 #include <optional>

@@ -1,7 +1,5 @@
 #include "scenes/snapshot.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,120 +7,17 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <map>
-#include <type_traits>
 
 #include "scenes/camera_path.h"
 #include "scenes/deformation.h"
-#include "scenes/dfg_table.h"
 #include "scenes/error.h"
 #include "scenes/luminance.h"
+#include "scenes/scene_pose.h"
 #include "scenes/screen.h"
 #include "scenes/spec.h"
 
 namespace pb {
 namespace {
-
-struct Pose {
-  glm::vec3 translation;
-  glm::quat rotation;
-  glm::vec3 scale;
-};
-
-glm::mat4 localMatrix(const Node& node, const Pose& pose) {
-  if (node.matrix) return *node.matrix;
-  const glm::mat4 rotation = glm::mat4_cast(glm::normalize(pose.rotation));
-  return glm::scale(glm::translate(glm::mat4(1.0f), pose.translation) * rotation, pose.scale);
-}
-
-// The scales of a chain of nodes multiply, also beyond what float holds.
-void checkWorldMatrix(const Scene& scene, const Node& node, const glm::mat4& world, double timeSeconds) {
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 3; ++row)
-      if (const float number = world[column][row]; !(std::abs(number) <= kLargestWorldTransform))
-        throwInputError("world transforms hold numbers up to {:g}, that of node '{}' of scene '{}' has {:g} at {:g} s",
-                        kLargestWorldTransform, node.name, scene.name, number, timeSeconds);
-}
-
-// The nodes at one time.
-struct ScenePose {
-  std::vector<glm::mat4> world;
-  std::vector<std::vector<float>> morphWeights;
-};
-
-std::vector<glm::mat4> worldMatrices(const Scene& scene, double timeSeconds) {
-  std::vector<Pose> poses;
-  poses.reserve(scene.nodes.size());
-  for (const Node& node : scene.nodes) poses.push_back({node.translation, node.rotation, node.scale});
-  for (const Track& track : scene.tracks) {
-    if (track.target == TrackTarget::morphWeights) continue;
-    const glm::vec4 value = sampleTrack(track, timeSeconds);
-    Pose& pose = poses[static_cast<std::size_t>(track.node)];
-    switch (track.target) {
-      case TrackTarget::translation:
-        pose.translation = glm::vec3(value);
-        break;
-      case TrackTarget::scale:
-        pose.scale = glm::vec3(value);
-        break;
-      case TrackTarget::rotation:
-        pose.rotation = glm::quat(value.w, value.x, value.y, value.z);
-        break;
-      case TrackTarget::morphWeights:
-        break;
-    }
-  }
-  std::vector<glm::mat4> world(scene.nodes.size());
-  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-    const int parent = scene.nodes[n].parent;
-    const glm::mat4 local = localMatrix(scene.nodes[n], poses[n]);
-    world[n] = parent < 0 ? local : world[static_cast<std::size_t>(parent)] * local;
-    checkWorldMatrix(scene, scene.nodes[n], world[n], timeSeconds);
-  }
-  return world;
-}
-
-ScenePose poseOf(const Scene& scene, double timeSeconds) {
-  ScenePose pose{worldMatrices(scene, timeSeconds), {}};
-  for (const Node& node : scene.nodes) pose.morphWeights.push_back(node.morphWeights);
-  for (const Track& track : scene.tracks)
-    if (track.target == TrackTarget::morphWeights)
-      pose.morphWeights[static_cast<std::size_t>(track.node)] = sampleWeights(track, timeSeconds);
-  return pose;
-}
-
-std::vector<glm::mat4> jointMatrices(const Skin& skin, const ScenePose& pose) {
-  std::vector<glm::mat4> matrices;
-  for (std::size_t j = 0; j < skin.joints.size(); ++j)
-    matrices.push_back(pose.world[static_cast<std::size_t>(skin.joints[j])] * skin.inverseBindMatrices[j]);
-  return matrices;
-}
-
-WorldMesh worldMesh(const Scene& scene, const Instance& instance, const ScenePose& pose, double timeSeconds) {
-  const auto n = static_cast<std::size_t>(instance.node);
-  const Node& node = scene.nodes[n];
-  const Mesh& mesh = *instance.mesh;
-  WorldMesh result{pose.world[n], instance.mesh, false};
-  if (deforms(scene, instance)) {
-    MeshPose meshPose{.morphWeights = {}, .wave = node.wave, .timeSeconds = timeSeconds, .jointMatrices = {}};
-    if (!mesh.targets.empty()) meshPose.morphWeights = pose.morphWeights[n];
-    if (node.skin >= 0 && !mesh.joints.empty()) {
-      meshPose.jointMatrices = jointMatrices(scene.skins[static_cast<std::size_t>(node.skin)], pose);
-      result.worldFromObject = glm::mat4(1.0f);
-      // A skin that mirrors does so as a whole.
-      result.mirrored = glm::determinant(glm::mat3(meshPose.jointMatrices.front())) < 0.0f;
-    }
-    result.mesh = deform(mesh, meshPose);
-  }
-  if (glm::determinant(glm::mat3(result.worldFromObject)) < 0.0f) result.mirrored = !result.mirrored;
-  return result;
-}
-
-std::vector<WorldMesh> worldMeshes(const Scene& scene, const ScenePose& pose, double timeSeconds) {
-  std::vector<WorldMesh> result;
-  result.reserve(scene.instances.size());
-  for (const Instance& instance : scene.instances) result.push_back(worldMesh(scene, instance, pose, timeSeconds));
-  return result;
-}
 
 SnapshotInstance snapshotInstance(const WorldMesh& placed, const Instance& instance, int source) {
   const glm::mat4& matrix = placed.worldFromObject;
@@ -167,10 +62,6 @@ shading::View cameraView(float verticalFov, float zNear, const glm::mat4& world,
   view.right = glm::vec4(tangent * static_cast<float>(aspect) * right, 0.0f);
   view.down = glm::vec4(-tangent * up, 0.0f);
   return view;
-}
-
-const Texture* textureAt(const Scene& scene, int texture) {
-  return texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(texture)];
 }
 
 // One probe a node: all its instances that own one share it.
@@ -262,84 +153,7 @@ shading::View orbitView(const Orbit& orbit, double seconds, double aspect) {
   return cameraView(orbit.verticalFov, zNear, world, aspect);
 }
 
-// Feeds plain values to one streaming hash.
-class Hasher {
- public:
-  Hasher() : state_(XXH3_createState()) { XXH3_64bits_reset(state_); }
-  ~Hasher() { XXH3_freeState(state_); }
-  Hasher(const Hasher&) = delete;
-  Hasher& operator=(const Hasher&) = delete;
-
-  void bytes(const void* data, std::size_t size) { XXH3_64bits_update(state_, data, size); }
-  template <class T>
-  void value(const T& v) {
-    static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T> || std::is_class_v<T>);
-    bytes(&v, sizeof v);
-  }
-  std::uint64_t digest() const { return XXH3_64bits_digest(state_); }
-
- private:
-  XXH3_state_t* state_;
-};
-
-void hashTexels(Hasher& hasher, const Texture& texture) {
-  const ImageRgba& level0 = texture.levels.front();  // determines the others
-  hasher.value(level0.width());
-  hasher.value(level0.height());
-  hasher.bytes(level0.data(), level0.size() * sizeof(glm::vec4));
-}
-
-void hashTexture(Hasher& hasher, const Scene& scene, int texture) {
-  hasher.value(texture);
-  if (texture >= 0) hashTexels(hasher, scene.textures[static_cast<std::size_t>(texture)]);
-}
-
-void hashMaterial(Hasher& hasher, const Scene& scene, const Material& m) {
-  hasher.value(m.constants);
-  for (const int texture :
-       {m.baseColorTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture, m.occlusionTexture})
-    hashTexture(hasher, scene, texture);
-  hasher.value(m.screen);
-  hasher.value(m.doubleSided);
-  hasher.value(m.isSpecularDominant);
-}
-
-void hashSurfacesAndLight(Hasher& hasher, const Snapshot& snapshot) {
-  const Scene& scene = *snapshot.scene;
-  for (const SnapshotInstance& instance : snapshot.instances) {
-    hasher.value(instance.mesh->contentHash);
-    hasher.value(instance.worldFromObject);
-    hasher.value(instance.material);
-    hasher.value(instance.probe);
-  }
-  for (const Material& material : scene.materials) hashMaterial(hasher, scene, material);
-  for (const shading::Light& light : snapshot.lights) hasher.value(light);
-  for (const Texture& screen : snapshot.screens) hashTexels(hasher, screen);
-  hasher.value(scene.castsShadows);
-  hasher.value(snapshot.environment().sky);
-  hasher.value(snapshot.environment().ambient);
-  for (const ImageRgba& face : snapshot.environment().faces) hasher.bytes(face.data(), face.size() * sizeof(glm::vec4));
-  for (const Probe& probe : snapshot.probes) {
-    hasher.value(probe.position);
-    hasher.value(probe.zNear);
-  }
-  hasher.value(snapshot.camera);
-}
-
-// Values of the slot's texture, white without one.
-shading::vec4 sampleSlot(const Texture* texture, const shading::TextureSlot& slot, const SurfaceAttributes& a) {
-  if (texture == nullptr) return shading::vec4(1.0f);
-  const shading::sampler2D image{&texture->levels};
-  const shading::vec2 uv = shading::textureCoordinates(slot.matrix, slot.offset, a.uv0, a.uv1);
-  const float lod = shading::coneLod(a.coneWidth, a.cosine, a.uvPerMetre, shading::textureSize(image, 0), slot.matrix);
-  return shading::sampleTexture(image, uv, lod, slot.sampler_);
-}
-
 }  // namespace
-
-std::vector<WorldMesh> worldMeshes(const Scene& scene, double timeSeconds) {
-  return worldMeshes(scene, poseOf(scene, timeSeconds), timeSeconds);
-}
 
 std::shared_ptr<const Snapshot> makeSnapshot(std::shared_ptr<const Scene> scene, int frame, const std::string& camera,
                                              double aspect) {
@@ -379,20 +193,6 @@ void findNearestProbes(Snapshot& snapshot) {
   }
 }
 
-std::uint64_t contentHash(const Snapshot& snapshot) {
-  Hasher hasher;
-  hashSurfacesAndLight(hasher, snapshot);
-  for (const Probe& probe : snapshot.probes)
-    if (probe.proxyBox) hasher.value(*probe.proxyBox);
-  return hasher.digest();
-}
-
-std::uint64_t referenceHash(const Snapshot& snapshot) {
-  Hasher hasher;
-  hashSurfacesAndLight(hasher, snapshot);
-  return hasher.digest();
-}
-
 shading::View withResolution(shading::View view, int widthPx) {
   view.forward.w = 2.0f * glm::length(glm::vec3(view.right)) / static_cast<float>(widthPx);
   return view;
@@ -405,59 +205,6 @@ shading::View cubeFaceView(glm::vec3 position, int face, float zNear) {
   view.right = glm::vec4(shading::cubeFaceRight(face), 0.0f);
   view.down = glm::vec4(shading::cubeFaceDown(face), 0.0f);
   return view;
-}
-
-shading::Surface readSurface(const Snapshot& snapshot, const Material& material, const SurfaceAttributes& a) {
-  const Scene& scene = *snapshot.scene;
-  const shading::MaterialConstants& c = material.constants;
-  shading::vec3 normal = a.normal;
-  if (material.normalTexture >= 0 && a.tangent.w != 0.0f)
-    normal = shading::mappedNormal(a.normal, a.tangent,
-                                   sampleSlot(textureAt(scene, material.normalTexture), c.normalSlot, a), c.emission.w);
-  return shading::makeSurface(
-      c, a.position, normal, a.color, sampleSlot(textureAt(scene, material.baseColorTexture), c.baseColorSlot, a),
-      sampleSlot(textureAt(scene, material.metallicRoughnessTexture), c.metallicRoughnessSlot, a),
-      sampleSlot(emissionTextureOf(snapshot, material), c.emissionSlot, a),
-      sampleSlot(textureAt(scene, material.occlusionTexture), c.occlusionSlot, a));
-}
-
-const Texture* emissionTextureOf(const Snapshot& snapshot, const Material& material) {
-  if (material.screen >= 0) return &snapshot.screens[static_cast<std::size_t>(material.screen)];
-  return textureAt(*snapshot.scene, material.emissionTexture);
-}
-
-glm::vec3 meanEmission(const Snapshot& snapshot, const Material& material) {
-  const Texture* texture = emissionTextureOf(snapshot, material);
-  const glm::vec3 factor(material.constants.emission);
-  // A texture's last level is one texel, its mean.
-  return texture == nullptr ? factor : factor * glm::vec3(texture->levels.back()(0, 0));
-}
-
-std::uint32_t baseColorTexelId(const Scene& scene, const Material& material, const SurfaceAttributes& a) {
-  if (material.baseColorTexture < 0) return 0;
-  const shading::TextureSlot& slot = material.constants.baseColorSlot;
-  const shading::sampler2D image{&scene.textures[static_cast<std::size_t>(material.baseColorTexture)].levels};
-  const shading::vec2 uv = shading::textureCoordinates(slot.matrix, slot.offset, a.uv0, a.uv1);
-  const float lod = shading::coneLod(a.coneWidth, a.cosine, a.uvPerMetre, shading::textureSize(image, 0), slot.matrix);
-  return static_cast<std::uint32_t>(shading::nearestTexelId(image, uv, lod, slot.sampler_));
-}
-
-glm::vec3 coatAlbedo(const shading::Surface& surface, const glm::vec3& toViewer) {
-  if (surface.kind != shading::kSurfaceGlossy && surface.kind != shading::kSurfaceGlass) return glm::vec3(0.0f);
-  const shading::sampler2D table{&dfgTable(shading::kGeometrySmithCorrelated).levels};
-  const float NoV = std::max(glm::dot(surface.normal, toViewer), 0.0f);
-  return shading::coatAlbedo(surface, shading::surfaceDfg(surface, table, NoV));
-}
-
-glm::vec3 localRadiance(const Snapshot& snapshot, const shading::Surface& surface, const glm::vec3& toViewer) {
-  glm::vec3 irradiance(0.0f);
-  for (const shading::Light& light : snapshot.lights)
-    irradiance += shading::lightIrradianceOn(light, surface.position, surface.normal);
-  for (const shading::AreaLight& light : snapshot.areaLights)
-    irradiance += shading::areaLightIrradiance(light, surface.position, surface.normal);
-  return shading::localRadiance(surface, irradiance,
-                                shading::ambientRadiance(snapshot.environment().ambient, surface.normal),
-                                coatAlbedo(surface, toViewer));
 }
 
 }  // namespace pb

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +12,7 @@
 #include "bench/platform.h"
 #include "bench/provenance.h"
 #include "scenes/error.h"
+#include "scenes/files.h"
 
 namespace pb {
 namespace {
@@ -34,26 +34,6 @@ std::string shippedBaseline(const std::string& suite) {
   const fs::path folder = fs::is_directory(installed) ? installed : fs::path(PROBEBENCH_BASELINES_DIR);
   return (folder / (suite + ".json")).string();
 }
-
-// Removed with everything in it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "probebench-selftest-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throwEnvironmentError("a folder for runs can't be made: '{}'", name);
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 // On another platform the gate drifts and catches nothing.
 void requireSamePlatform(const Baseline& baseline, const Provenance& now, const std::string& path) {
@@ -87,7 +67,7 @@ int runSelftest(const SelftestOptions& options, const GlobalOptions& globals) {
   requireSamePlatform(baseline, provenance, baselinePath);
   provenance.controlOutcome = summary(runControl(device));
   const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : fs::path(options.store));
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Progress progress;
   const SelftestContext context{suite, scenes, device, store, baseline, provenance, scratch.path(), progress};
   const GateSelftest selftest(context);

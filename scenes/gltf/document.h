@@ -10,6 +10,7 @@
 
 #include "scenes/error.h"
 #include "scenes/gltf/tinygltf.h"
+#include "scenes/place.h"
 
 namespace pb::gltf {
 
@@ -28,16 +29,6 @@ std::span<const std::byte> bytesOf(const Document& document, int bufferView);
 
 // Bytes of images[index], from wherever the file keeps them.
 std::string imageBytes(const Document& document, int index);
-
-// Runs an action, putting the place before the message of an Error.
-template <class Action>
-auto atPlace(const std::string& place, const Action& action) {
-  try {
-    return action();
-  } catch (const Error& e) {
-    throw Error(e.kind(), place + ": " + e.what());
-  }
-}
 
 // "'name'" or "3" where there is no name.
 std::string label(const std::string& name, std::size_t index);

@@ -5,7 +5,6 @@
 
 #include "scenes/files.h"
 #include "tests/cli/program.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

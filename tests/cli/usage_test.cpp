@@ -9,7 +9,6 @@
 #include "scenes/files.h"
 #include "scenes/image_io.h"
 #include "tests/cli/program.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

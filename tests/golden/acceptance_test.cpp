@@ -7,7 +7,6 @@
 #include "bench/results.h"
 #include "scenes/files.h"
 #include "tests/cli/program.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scenes/files.h"
 #include "tests/cli/program.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -6,8 +6,8 @@
 #include "bench/attribution_runner.h"
 #include "bench/attribution_steps.h"
 #include "bench/axes.h"
+#include "scenes/files.h"
 #include "tests/error_message.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/raster_fixture.h"
 
 namespace pb {

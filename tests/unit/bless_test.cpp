@@ -6,7 +6,6 @@
 #include "scenes/error.h"
 #include "scenes/files.h"
 #include "tests/error_message.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/gate_fixture.h"
 
 namespace pb {

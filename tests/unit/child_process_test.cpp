@@ -8,7 +8,6 @@
 
 #include "scenes/error.h"
 #include "scenes/files.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

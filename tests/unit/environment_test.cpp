@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/error.h"
+#include "scenes/files.h"
 #include "scenes/image_io.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -12,7 +12,6 @@
 #include "scenes/files.h"
 #include "scenes/image_io.h"
 #include "tests/error_message.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/sample_results.h"
 
 namespace pb {

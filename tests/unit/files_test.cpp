@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "scenes/error.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {
@@ -32,6 +31,19 @@ Failure failureOf(auto function) {
   }
   ADD_FAILURE() << "nothing was thrown";
   return Failure::verdict;
+}
+
+TEST(TemporaryFolders, AreFresh_AndGoWithAllThatIsInThem) {
+  fs::path path;
+  {
+    const TemporaryFolder folder, other;
+    path = folder.path();
+    EXPECT_NE(path, other.path());
+    EXPECT_TRUE(fs::is_empty(path));
+    fs::create_directory(path / "inner");
+    writeFileAtomically(folder.file("inner/file"), "");
+  }
+  EXPECT_FALSE(fs::exists(path));
 }
 
 TEST_F(Files, WrittenBytes_AreReadBack) {

@@ -11,7 +11,6 @@
 #include "scenes/gltf/document.h"
 #include "scenes/gltf_load.h"
 #include "scenes/image_io.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 

@@ -16,7 +16,6 @@
 #include "scenes/gltf_load.h"
 #include "scenes/screen.h"
 #include "scenes/snapshot.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/gltf_file.h"
 
 namespace pb {

@@ -10,7 +10,6 @@
 
 #include "scenes/error.h"
 #include "scenes/files.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -9,11 +9,11 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/error.h"
+#include "scenes/files.h"
 #include "scenes/gltf_load.h"
 #include "scenes/gltf_save.h"
 #include "scenes/polygon.h"
 #include "scenes/snapshot.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

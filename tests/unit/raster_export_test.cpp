@@ -1,7 +1,7 @@
 // Built-in scenes written as .glb and loaded again: the pictures stay.
+#include "scenes/files.h"
 #include "scenes/gltf_load.h"
 #include "scenes/gltf_save.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/raster_fixture.h"
 
 namespace pb {

@@ -3,7 +3,6 @@
 
 #include "bench/work.h"
 #include "scenes/files.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "scenes/error.h"
 #include "scenes/files.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -19,9 +19,9 @@
 #include "scenes/builtin/teapot_mesh.h"
 #include "scenes/environment.h"
 #include "scenes/error.h"
+#include "scenes/files.h"
 #include "scenes/gltf_save.h"
 #include "scenes/snapshot.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "scenes/error.h"
+#include "scenes/files.h"
 #include "scenes/scene.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

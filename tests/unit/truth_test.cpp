@@ -8,8 +8,8 @@
 
 #include "bench/bounce_depth.h"
 #include "scenes/environment.h"
+#include "scenes/files.h"
 #include "tests/analytic/reference_scenes.h"
-#include "tests/temporary_folder.h"
 
 namespace pb {
 namespace {

@@ -5,9 +5,9 @@
 #include "raster/probe_views.h"
 #include "raster/reflection.h"
 #include "reference/renderer.h"
+#include "scenes/files.h"
 #include "scenes/gltf_load.h"
 #include "scenes/gltf_save.h"
-#include "tests/temporary_folder.h"
 #include "tests/unit/raster_fixture.h"
 
 namespace pb {
