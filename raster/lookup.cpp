@@ -2,17 +2,28 @@
 
 #include <algorithm>
 
-#include "raster/lookup/lookups.h"
 #include "scenes/error.h"
 
 namespace pb {
 
-SpecReader lookupReader(const Spec& spec) { return {spec, "lookup '" + printSpec(spec) + "'"}; }
+#define LOOKUP(function) Lookup function();
+#include "raster/lookup/lookups.def"
+#undef LOOKUP
 
 const std::vector<Lookup>& lookups() {
-  static const std::vector<Lookup> table = {infiniteLookup(),         sphereProxyLookup(), boxProxyLookup(),
-                                            distanceImpostorLookup(), planarLookup(),      singleViewLookup()};
+  static const std::vector<Lookup> table = {
+#define LOOKUP(function) function(),
+#include "raster/lookup/lookups.def"
+#undef LOOKUP
+  };
   return table;
+}
+
+SpecReader lookupReader(const Spec& spec) { return {spec, "lookup '" + printSpec(spec) + "'"}; }
+
+std::string noLookupDefines(const Spec& spec) {
+  lookupReader(spec).finish();
+  return "";
 }
 
 const Lookup& lookupOf(const Spec& spec) {
@@ -26,6 +37,17 @@ const Lookup& lookupOf(const Spec& spec) {
 }
 
 void checkLookup(const Spec& spec) { lookupOf(spec).defines(spec); }
+
+std::string lookupDefines(const Spec& spec) {
+  const Lookup& lookup = lookupOf(spec);
+  std::string defines = lookup.defines(spec);
+  if (!lookup.glsl.empty()) defines += "#define LOCAL_LOOKUP\n";
+  if (lookup.readsDistances) defines += "#define READS_DISTANCES\n";
+  if (lookup.isSingleView) defines += "#define SINGLE_VIEW\n";
+  return defines;
+}
+
+bool readsProbe(const Technique& technique) { return !lookupOf(technique.lookup).glsl.empty(); }
 
 bool needsDistances(const Technique& technique) { return lookupOf(technique.lookup).readsDistances; }
 

@@ -72,6 +72,11 @@ std::string withDefines(const std::string& shader, const std::string& defines) {
   return shader.substr(0, secondLine) + defines + shader.substr(secondLine);
 }
 
+// At the end; the driver counts its lines from 1 and calls it source 1 in messages.
+std::string withCode(const std::string& shader, std::string_view code) {
+  return code.empty() ? shader : fmt::format("{}#line 1 1\n{}", shader, code);
+}
+
 }  // namespace
 
 EnvironmentSource environmentSource(const Environment& environment, TextureFilter filter) {
@@ -93,9 +98,10 @@ std::string filterDefines(ProbeFilter filter, int resolution) {
   return define("FILTER_GGX", fmt::format("{}.0f", levels));
 }
 
-GLuint Programs::surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines) {
+GLuint Programs::surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines,
+                                     std::string_view lookupCode) {
   return find(shaders::kSceneVert, shaders::kSceneFrag, "scene",
-              definesOf(variant) + techniqueDefines + define("PROBE_LOOKUP"));
+              definesOf(variant) + techniqueDefines + define("PROBE_LOOKUP"), lookupCode);
 }
 
 GLuint Programs::surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source,
@@ -105,8 +111,8 @@ GLuint Programs::surfaceShowingEnvironment(const SurfaceVariant& variant, Enviro
 }
 
 GLuint Programs::surfaceRecordingLookup(const SurfaceVariant& variant, LookupRecord record,
-                                        const std::string& techniqueDefines) {
-  return surfaceShowingProbe(variant, techniqueDefines + define("RECORDS_LOOKUP") + definesOf(record));
+                                        const std::string& techniqueDefines, std::string_view lookupCode) {
+  return surfaceShowingProbe(variant, techniqueDefines + define("RECORDS_LOOKUP") + definesOf(record), lookupCode);
 }
 
 GLuint Programs::collectLookups(LookupRecord record) {
@@ -187,13 +193,14 @@ GLuint Programs::backFaces(const SurfaceVariant& variant) {
 }
 
 GLuint Programs::find(const char* vertexShader, const char* fragmentShader, const std::string& name,
-                      const std::string& defines) {
-  std::unique_ptr<gl::Program>& program = programs_[name + "\n" + defines];
-  if (!program)
-    program = std::make_unique<gl::Program>(
-        gl_, std::vector<gl::ShaderSource>{
-                 {GL_VERTEX_SHADER, "raster/shaders/" + name + ".vert", withDefines(vertexShader, defines)},
-                 {GL_FRAGMENT_SHADER, "raster/shaders/" + name + ".frag", withDefines(fragmentShader, defines)}});
+                      const std::string& defines, std::string_view fragmentCode) {
+  std::unique_ptr<gl::Program>& program = programs_[fmt::format("{}\n{}{}", name, defines, fragmentCode)];
+  if (program) return program->id();
+  const std::string fragment = withCode(withDefines(fragmentShader, defines), fragmentCode);
+  program = std::make_unique<gl::Program>(
+      gl_, std::vector<gl::ShaderSource>{
+               {GL_VERTEX_SHADER, "raster/shaders/" + name + ".vert", withDefines(vertexShader, defines)},
+               {GL_FRAGMENT_SHADER, "raster/shaders/" + name + ".frag", fragment}});
   return program->id();
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "raster/gl/objects.h"
 #include "raster/technique.h"
@@ -58,12 +59,14 @@ class Programs {
   explicit Programs(const gl::Functions& gl) : gl_(gl) {}
 
   // Names of GL programs, valid as long as this object. All throw an environment Error if the driver refuses.
-  GLuint surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines);
+  // lookupCode: Lookup::glsl of the technique's lookup.
+  GLuint surfaceShowingProbe(const SurfaceVariant& variant, const std::string& techniqueDefines,
+                             std::string_view lookupCode);
   GLuint surfaceShowingEnvironment(const SurfaceVariant& variant, EnvironmentSource source,
                                    const std::string& techniqueDefines);
   // As surfaceShowingProbe(); writes what lookup_records.glsl keeps, too.
-  GLuint surfaceRecordingLookup(const SurfaceVariant& variant, LookupRecord record,
-                                const std::string& techniqueDefines);
+  GLuint surfaceRecordingLookup(const SurfaceVariant& variant, LookupRecord record, const std::string& techniqueDefines,
+                                std::string_view lookupCode);
   // Of lists of lookups (raster/lookup_records.h).
   GLuint collectLookups(LookupRecord record);
   GLuint repeatLookups(LookupRecord record, const std::string& techniqueDefines);
@@ -82,8 +85,8 @@ class Programs {
   GLuint shadow(const SurfaceVariant& variant);
 
  private:
-  GLuint find(const char* vertexShader, const char* fragmentShader, const std::string& name,
-              const std::string& defines);
+  GLuint find(const char* vertexShader, const char* fragmentShader, const std::string& name, const std::string& defines,
+              std::string_view fragmentCode = "");
   GLuint findCompute(const char* shader, const std::string& name, const std::string& defines);
 
   const gl::Functions& gl_;

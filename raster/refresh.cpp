@@ -13,6 +13,11 @@
 #include "scenes/error.h"
 
 namespace pb {
+
+#define REFRESH_POLICY(function) RefreshPolicy function();
+#include "raster/refresh/policies.def"
+#undef REFRESH_POLICY
+
 namespace {
 
 constexpr std::array<std::int64_t, 6> kNeverCaptured = {-1, -1, -1, -1, -1, -1};
@@ -199,9 +204,11 @@ void advance(RefreshHistory& history, const std::vector<ProbeFace>& faces, const
 }
 
 const std::vector<RefreshPolicy>& refreshPolicies() {
-  static const std::vector<RefreshPolicy> table = {everyFramePolicy(), everyNPolicy(),       facesPolicy(),
-                                                   onChangePolicy(),   staticPolicy(),       distanceScaledPolicy(),
-                                                   budgetPolicy(),     cameraVisiblePolicy()};
+  static const std::vector<RefreshPolicy> table = {
+#define REFRESH_POLICY(function) function(),
+#include "raster/refresh/policies.def"
+#undef REFRESH_POLICY
+  };
   return table;
 }
 

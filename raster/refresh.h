@@ -1,6 +1,6 @@
 // Refresh policies: which (probe, face) pairs are captured in a frame. Pure functions, tested without GL.
 //
-// Adding one: a file in raster/refresh/ with a RefreshPolicy, and a line in the table of refresh.cpp.
+// Adding one: a file in raster/refresh/ with a RefreshPolicy, and its line in raster/refresh/policies.def.
 #pragma once
 
 #include <array>

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 #include <tuple>
 
 #include "raster/lookup.h"
@@ -105,7 +106,8 @@ class SurfacePrograms {
         source_(environmentSource(snapshot.environment(), technique.textureFilter)),
         settings_(techniqueDefines(technique) + clipDefines(technique)),
         environmentLevels_(filterDefines(technique.filter, environmentSize)),
-        mapLookup_(lookupOf(technique.lookup).defines(technique.lookup) + mapDefines(technique, snapshot)) {}
+        mapLookup_(lookupDefines(technique.lookup) + mapDefines(technique, snapshot)),
+        lookupCode_(lookupOf(technique.lookup).glsl) {}
 
   EnvironmentSource source() const { return source_; }
 
@@ -131,7 +133,7 @@ class SurfacePrograms {
     if (draw.captured.showingProbe == 0 || !hasOneLookup(draw.variant)) return;
     if (isUniformMirror(technique_, material, *instance.mesh)) draw.captured.record = LookupRecord::mirror;
     draw.captured.recordingProbe =
-        programs_.surfaceRecordingLookup(captured, draw.captured.record, capturedDefines + map);
+        programs_.surfaceRecordingLookup(captured, draw.captured.record, capturedDefines + map, lookupCode_);
   }
 
  private:
@@ -140,16 +142,16 @@ class SurfacePrograms {
     SurfaceDraw::Shown shown;
     shown.showingEnvironment = programs_.surfaceShowingEnvironment(variant, source_, defines + environmentLevels_);
     if (reflection.source == ReflectionSource::probe)
-      shown.showingProbe = programs_.surfaceShowingProbe(variant, defines + map);
+      shown.showingProbe = programs_.surfaceShowingProbe(variant, defines + map, lookupCode_);
     if (reflection.second >= 0)
-      shown.showingBlend = programs_.surfaceShowingProbe(variant, defines + map + kBlendDefines);
+      shown.showingBlend = programs_.surfaceShowingProbe(variant, defines + map + kBlendDefines, lookupCode_);
     if (hasBackFaces) shown.backFaces = programs_.backFaces(variant);
     return shown;
   }
 
   GLuint showingMirroredView(const SurfaceVariant& variant, const std::string& defines, const std::string& map,
                              bool refracts) {
-    if (refracts) return programs_.surfaceShowingProbe(variant, defines + map + kPlanarDefines);
+    if (refracts) return programs_.surfaceShowingProbe(variant, defines + map + kPlanarDefines, lookupCode_);
     return programs_.surfaceShowingEnvironment(variant, source_, defines + environmentLevels_ + kPlanarDefines);
   }
 
@@ -160,6 +162,7 @@ class SurfacePrograms {
   const std::string settings_;
   const std::string environmentLevels_;
   const std::string mapLookup_;
+  const std::string_view lookupCode_;
 };
 
 }  // namespace

@@ -49,7 +49,7 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   beginShadows();
   constants_.uploadLights(castsShadows(snapshot) ? shadows_->lights() : snapshot.lights, snapshot.areaLights);
   constants_.uploadPasses(passes);
-  if (lookupOf(technique_.lookup).readsProbe) constants_.uploadProbes(snapshot);
+  if (readsProbe(technique_)) constants_.uploadProbes(snapshot);
   resources_->bindScene();
   resources_->bindReflection(technique_);
   constants_.bindLights();

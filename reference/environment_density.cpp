@@ -52,12 +52,6 @@ double filteredMean(const Plane& padded, int x, int y) {
   return sum;
 }
 
-// Solid angle of the unit of area at (s, t) on a face.
-float solidAngleDensity(const glm::vec2& st) {
-  const float squared = 1.0f + glm::dot(st, st);
-  return 1.0f / (squared * std::sqrt(squared));
-}
-
 }  // namespace
 
 EnvironmentDensity::EnvironmentDensity(const Environment& environment) {
@@ -88,7 +82,7 @@ std::vector<EnvironmentDensity::Light> EnvironmentDensity::lightOfCubeMap(const 
       for (int x = 0; x < texels_; ++x) {
         const glm::vec2 st = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(texels_) - 1.0f;
         const int cell = (face * cells_ + y / texelsPerCell_) * cells_ + x / texelsPerCell_;
-        const double solidAngle = texelArea * static_cast<double>(solidAngleDensity(st));
+        const double solidAngle = texelArea * static_cast<double>(shading::cubeSolidAngleDensity(st));
         light[static_cast<std::size_t>(cell)].flux += filteredMean(padded, x, y) * solidAngle;
         light[static_cast<std::size_t>(cell)].solidAngle += solidAngle;
       }
@@ -105,7 +99,7 @@ std::vector<EnvironmentDensity::Light> EnvironmentDensity::lightOfGradient(const
     for (int y = 0; y < n; ++y)
       for (int x = 0; x < n; ++x) {
         const glm::vec2 st = (2.0f * glm::vec2(x, y) + 1.0f) / static_cast<float>(n) - 1.0f;
-        const double solidAngle = area * static_cast<double>(solidAngleDensity(st));
+        const double solidAngle = area * static_cast<double>(shading::cubeSolidAngleDensity(st));
         Light& cell = light[static_cast<std::size_t>((face * cells_ + y / kPoints) * cells_ + x / kPoints)];
         const glm::vec3 d = glm::normalize(shading::cubeDirection(face, st));
         cell.flux += static_cast<double>(luminance(shading::gradientSky(sky, d))) * solidAngle;
@@ -120,7 +114,7 @@ float EnvironmentDensity::edge(int i) const {
 
 float EnvironmentDensity::perSteradian(int x, int y, const glm::vec2& st) const {
   const float area = (edge(x + 1) - edge(x)) * (edge(y + 1) - edge(y));
-  return 1.0f / (area * solidAngleDensity(st));
+  return 1.0f / (area * shading::cubeSolidAngleDensity(st));
 }
 
 EnvironmentDensity::Point EnvironmentDensity::pointIn(std::size_t cell, const glm::vec2& u) const {

@@ -1,4 +1,4 @@
-// Scenes made by code. Adding one: a file in scenes/builtin/ and a line in the table of builtin.cpp.
+// Scenes made by code. Adding one: a file in scenes/builtin/ and its line in scenes/builtin/scenes.def.
 #pragma once
 
 #include <memory>

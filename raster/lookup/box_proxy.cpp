@@ -1,5 +1,5 @@
 // The surroundings are a box: Probe::proxyBox, or the bounds of everything but the probe's owners.
-#include "raster/lookup/lookups.h"
+#include "raster/lookup.h"
 
 namespace pb {
 
@@ -8,12 +8,11 @@ Lookup boxProxyLookup() {
           .parameters = "",
           .description = "where the ray leaves the probe's proxy box",
           .source = "Lagarde and Zanuttini, SIGGRAPH 2012; Unreal, Unity, Godot",
-          .defines =
-              [](const Spec& spec) {
-                lookupReader(spec).finish();
-                return std::string("#define BOX_PROXY\n");
-              },
-          .readsProbe = true,
+          .glsl = R"glsl(
+vec3 lookupDirection(ProbeConstants p, vec3 from, vec3 d) {
+  return boxProxyDirection(from, d, vec3(p.boxLower), vec3(p.boxUpper), vec3(p.position));
+}
+)glsl",
           .keepsDirections = true};
 }
 

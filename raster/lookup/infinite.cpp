@@ -1,5 +1,5 @@
 // The surroundings are infinitely far away: only the direction matters.
-#include "raster/lookup/lookups.h"
+#include "raster/lookup.h"
 
 namespace pb {
 
@@ -8,11 +8,6 @@ Lookup infiniteLookup() {
           .parameters = "",
           .description = "the direction itself, as if everything were infinitely far away",
           .source = "Greene 1986, and every textbook since",
-          .defines =
-              [](const Spec& spec) {
-                lookupReader(spec).finish();
-                return std::string();
-              },
           .keepsDirections = true};
 }
 

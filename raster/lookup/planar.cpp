@@ -1,6 +1,6 @@
 // Flat reflectors show the scene from the mirrored camera (raster/planar.h); cube maps are looked up for what is seen
 // through them and where they are seen in other reflectors.
-#include "raster/lookup/lookups.h"
+#include "raster/lookup.h"
 
 namespace pb {
 
@@ -10,11 +10,6 @@ Lookup planarLookup() {
           .description =
               "flat reflectors only: the scene drawn from the camera mirrored at their plane, once for each plane",
           .source = "course slides, Introduction to Computer Graphics; Unreal, Unity HDRP",
-          .defines =
-              [](const Spec& spec) {
-                lookupReader(spec).finish();
-                return std::string();
-              },
           .isPlanar = true};
 }
 

@@ -1,19 +1,10 @@
-// The refresh policies, one file each; refresh.cpp has the table.
+// What the refresh policies, one file each, have in common.
 #pragma once
 
 #include "raster/refresh.h"
 #include "scenes/spec.h"
 
 namespace pb {
-
-RefreshPolicy budgetPolicy();
-RefreshPolicy cameraVisiblePolicy();
-RefreshPolicy distanceScaledPolicy();
-RefreshPolicy everyFramePolicy();
-RefreshPolicy everyNPolicy();
-RefreshPolicy facesPolicy();
-RefreshPolicy onChangePolicy();
-RefreshPolicy staticPolicy();
 
 // All faces of all probes, ordered by probe, then face.
 std::vector<ProbeFace> allFaces(const Snapshot& snapshot);

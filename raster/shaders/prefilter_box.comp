@@ -5,12 +5,6 @@
 
 layout(binding = kFilterSourceUnit) uniform sampler2DArray source;
 
-// Of a small texel at the face coordinates st: the cosine to the third over the face's unit distance squared.
-float relativeSolidAngle(vec2 st) {
-  float distanceSquared = 1.0f + dot(st, st);
-  return 1.0f / (distanceSquared * sqrt(distanceSquared));
-}
-
 void main() {
   ivec3 texel = targetTexel();
   if (isOutside(texel)) return;
@@ -20,7 +14,7 @@ void main() {
     for (int i = 0; i < 2; ++i) {
       ivec2 p = 2 * texel.xy + ivec2(i, j);
 #ifdef SOLID_ANGLES
-      float weight = relativeSolidAngle(texelCentre(p, 2.0f * float(job.y)));
+      float weight = cubeSolidAngleDensity(texelCentre(p, 2.0f * float(job.y)));
 #else
       float weight = 1.0f;
 #endif

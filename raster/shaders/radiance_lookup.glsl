@@ -4,7 +4,8 @@
 // one of FILTER_GGX (number of levels above level 0) and FILTER_BOX (texels along an edge of level 0) if the cube map is
 // filtered, none for the technique filter = none; MIPS if smooth lobes read its levels, too, with
 // MIPS_GGX if they are those of FILTER_GGX; MAP_OCTAHEDRAL or
-// MAP_PARABOLOIDS if maps are no cubes; BLENDED_PROBES for surfaces between two probes, and those of lookup_direction.glsl.
+// MAP_PARABOLOIDS if maps are no cubes, SINGLE_VIEW if they are one picture; BLENDED_PROBES for surfaces between two probes,
+// and those of lookup_direction.glsl.
 #include "raster/shaders/gloss_lod.glsl"
 
 #if defined(ROUGH_LOBE) && (defined(FILTER_GGX) || defined(FILTER_BOX))

@@ -30,7 +30,7 @@ LookupRecord recordAt(int record) {
   vec4 directionAndCosine = imageLoad(records, record);
   Surface s = makeSurface(material, vec3(0.0f), vec3(0.0f), vec4(1.0f), vec4(1.0f), vec4(1.0f), vec4(1.0f), vec4(1.0f));
   s.kind = kSurfaceMirror;
-  vec3 weight = specularReflectance(s, directionAndCosine.w, fresnelLawOf(s));
+  vec3 weight = specularReflectance(s, directionAndCosine.w, kFresnelLaw);
   return LookupRecord(vec3(directionAndCosine), 0.0f, weight, vec3(0.0f));
 }
 #else

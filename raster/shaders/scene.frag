@@ -71,7 +71,7 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
     irradiance += max(NoL, 0.0f) * fromLight;
 #ifdef ROUGH_LOBE
     highlights += abs(NoL) * fromLight *
-                  specularBsdf(s, toViewer, toLight, gl_FrontFacing ? s.ior : 1.0f / s.ior, fresnelLawOf(s), kGeometry);
+                  specularBsdf(s, toViewer, toLight, gl_FrontFacing ? s.ior : 1.0f / s.ior, kFresnelLaw, kGeometry);
 #endif
   }
 #ifdef AREA_LIGHTS

@@ -3,10 +3,10 @@
 // Reflectance of a rough lobe to uniform light: the split sum (Karis 2013) with the law's values at normal and at grazing
 // incidence. dfg: of surfaceDfg().
 vec3 splitSum(Surface s, vec2 dfg) {
-  vec4 law = fresnelLawOf(s);
   if (s.kind == kSurfaceGlass)
-    return vec3(dfg.x * dielectricReflectance(law, 1.0f, s.ior) + dfg.y * dielectricReflectance(law, 0.0f, s.ior));
-  return dfg.x * specularReflectance(s, 1.0f, law) + dfg.y * specularReflectance(s, 0.0f, law);
+    return vec3(dfg.x * dielectricReflectance(kFresnelLaw, 1.0f, s.ior) +
+                dfg.y * dielectricReflectance(kFresnelLaw, 0.0f, s.ior));
+  return dfg.x * specularReflectance(s, 1.0f, kFresnelLaw) + dfg.y * specularReflectance(s, 0.0f, kFresnelLaw);
 }
 
 // Whether the table holds for the lobe. It has no thin walls, and no interfaces seen from inside.
@@ -32,7 +32,7 @@ vec3 reflectedRadiance(Surface s, vec3 toViewer) {
 vec3 specularRadiance(Surface s, vec3 toViewer, vec2 dfg) {
   float relativeIor = gl_FrontFacing ? s.ior : 1.0f / s.ior;
   float cosine = max(dot(s.normal, toViewer), 0.0f);
-  SpecularWeights weights = specularWeights(s, cosine, relativeIor, fresnelLawOf(s));
+  SpecularWeights weights = specularWeights(s, cosine, relativeIor, kFresnelLaw);
 #ifdef FILTERED_LOOKUP
   if (hasSplitSum(s)) weights.reflection = splitSum(s, dfg);
 #endif

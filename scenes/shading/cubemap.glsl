@@ -59,6 +59,13 @@ PB_FUNC float cubeTexelSolidAngle(ivec2 texel, int n) {
          cubeCornerSolidAngle(vec2(hi.x, lo.y));
 }
 
+// Solid angle of the unit of area at (s, t): the cosine over the distance squared. Of small texels, of which the differences
+// above cancel.
+PB_FUNC float cubeSolidAngleDensity(vec2 st) {
+  float distanceSquared = 1.0f + dot(st, st);
+  return 1.0f / (distanceSquared * sqrt(distanceSquared));
+}
+
 // (x, y, face) of the texel that continues the given face beyond one of its edges: the neighbour face's texel in which
 // the direction through the outside texel's centre falls. Texels of the face itself are returned as they are.
 PB_FUNC ivec3 cubeWrapTexel(ivec2 texel, int face, int n) {

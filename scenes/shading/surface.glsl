@@ -126,11 +126,12 @@ PB_FUNC vec3 specularF0(Surface s) {
 }
 PB_FUNC float specularF90(Surface s) { return mix(coatF90(s), 1.0f, s.metallic); }
 
-// Of a metal; VoH is the cosine to the microfacet. A metal of unknown indices is defined by Schlick's law.
+// Of a metal; VoH is the cosine to the microfacet. A metal of unknown indices is defined by Schlick's law. A ratio mixes what
+// is reflected with what is refracted: metals, which refract nothing, keep their exact law, or else even a perfect mirror
+// would be dark from the front.
 PB_FUNC vec3 metalReflectance(Surface s, float VoH, vec4 law) {
-  if (law.x == kFresnelRatio) return F_Ratio(VoH, law.y, law.z, law.w) * s.baseColor;
   bool known = s.conductorEta.w > 0.5f;
-  if (known && law.x == kFresnelExact) return F_Conductor(VoH, vec3(s.conductorEta), s.conductorK);
+  if (known && law.x != kFresnelSchlick) return F_Conductor(VoH, vec3(s.conductorEta), s.conductorK);
   return F_Schlick(known ? F_Conductor(1.0f, vec3(s.conductorEta), s.conductorK) : s.baseColor, VoH);
 }
 

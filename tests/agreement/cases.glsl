@@ -187,4 +187,5 @@ AGREEMENT_CASE(64, vec4(impostorSecant(vec2(a.x, -0.1f - a.y), vec2(1.0f + b.x, 
 AGREEMENT_CASE(65, vec4(octahedralCoordinates(unitVector(a)), paraboloidCoordinates(unitVector(a))))
 AGREEMENT_CASE(66, vec4(octahedralDirection(2.2f * vec2(a) - vec2(1.1f)), 0.0f))
 AGREEMENT_CASE(67, vec4(paraboloidDirection(2.2f * vec2(a) - vec2(1.1f), a.z < 0.5f ? -1.0f : 1.0f), borderedTextureCoordinates(vec2(b), 34).x))
+AGREEMENT_CASE(68, vec4(cubeSolidAngleDensity(2.0f * vec2(a) - vec2(1.0f))))
 AGREEMENT_CASES_END

@@ -160,6 +160,7 @@ const std::vector<Row> kRows = {
      "divisions; the octahedron's edges jump to their other half"},
     {66, "octahedralDirection", kArithmetic, 0, "a normalised sum of numbers below 2"},
     {67, "paraboloidDirection, borderedTextureCoordinates", kArithmetic, 0, "a division"},
+    {68, "cubeSolidAngleDensity", kArithmetic, 0, "a square root and a division"},
 };
 
 std::vector<glm::vec4> makeInputs() {

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "raster/lookup.h"
 #include "scenes/error.h"
 #include "tests/unit/raster_fixture.h"
 
@@ -37,12 +38,32 @@ TEST_P(Device, EveryVariantOfTheShadersCompiles) {
         variant.filter = filter;
         variant.attributes = textured;
         variant.textures.fill(textured ? std::optional(SamplerSettings{0.0f, 1.0f, 1.0f, 5.0f}) : std::nullopt);
-        EXPECT_NE(impl.programs.surfaceShowingProbe(variant, techniqueDefines({})), 0U);
+        EXPECT_NE(impl.programs.surfaceShowingProbe(variant, techniqueDefines({}), ""), 0U);
         EXPECT_NE(impl.programs.ids(variant), 0U);
         for (const EnvironmentSource source :
              {EnvironmentSource::gradient, EnvironmentSource::faces, EnvironmentSource::facesHardware})
           EXPECT_NE(impl.programs.surfaceShowingEnvironment(variant, source, techniqueDefines({})), 0U);
       }
+}
+
+// Of rough glass, which looks up what it reflects and what it refracts, at levels of its map.
+TEST_P(Device, EveryVariantOfEveryLookupCompiles) {
+  RasterDevice::Impl& impl = device().impl();
+  impl.context.makeCurrent();
+  SurfaceVariant variant;
+  variant.kind = shading::kSurfaceGlass;
+  variant.lobe = Lobe::mixed;
+  for (const Lookup& lookup : lookups())
+    for (const bool attributes : {false, true})
+      for (const char* probes : {"", "#define BLENDED_PROBES\n"})
+        for (const char* levels : {"", "#define MIPS\n"}) {
+          if (lookup.isSingleView && *levels != 0) continue;  // refused: its maps have none
+          variant.attributes = attributes;
+          const ProbeFilter filter = lookup.isSingleView ? ProbeFilter::none : ProbeFilter::ggxPrefiltered;
+          const std::string defines =
+              techniqueDefines({}) + filterDefines(filter, 64) + lookupDefines({lookup.name, {}}) + probes + levels;
+          EXPECT_NO_THROW(impl.programs.surfaceShowingProbe(variant, defines, lookup.glsl)) << defines;
+        }
 }
 
 TEST_P(Device, ShaderErrorsBecomeOneException) {
