@@ -355,6 +355,7 @@ class ReportPage(unittest.TestCase):
             page.script("window.dispatchEvent(new Event('resize'))")
             page.wait(lambda: page.script("return [...document.querySelectorAll('figure.chart')].every((f) => f.hidden || f.querySelector('svg'))"), "a chart is blank")
         self.assertIn("probe MiB", page.text("#errors"))
+        self.assertNotIn("null", page.text("#cell"))
 
     def test_cells_that_the_metrics_order_oppositely_are_shown_as_pictures(self):
         def dispute(cells):

@@ -56,7 +56,7 @@ function errorTable(cell) {
 }
 
 function pairsTable(caption, pairs) {
-  const rows = pairs.filter(([, value]) => value !== undefined && value !== "–" && value !== "NaN");
+  const rows = pairs.filter(([, value]) => (value ?? "–") !== "–"); // not measured
   return (
     rows.length > 0 &&
     new Table({
@@ -74,7 +74,7 @@ function pairsTable(caption, pairs) {
 
 function costPairs(cell) {
   const {cost, counters = {}} = cell;
-  const number = (value) => (value === undefined ? undefined : significant(value));
+  const number = (value) => significant(value ?? NaN);
   const interval = (low, high) => (low === undefined ? "" : ` (${significant(low)} … ${significant(high)})`);
   return [
     ["frame ms", cost && number(cost.frame_ms) + interval(cost.frame_ms_low, cost.frame_ms_high)],
@@ -88,7 +88,7 @@ function costPairs(cell) {
     ["final image ms", number(cost?.final_ms)],
     ["renders a frame", cost?.renders_formula],
     ["flicker, whole image", number(cell.flicker?.whole)],
-    ["flicker, mask", cell.flicker?.mask === null ? undefined : number(cell.flicker?.mask)],
+    ["flicker, mask", number(cell.flicker?.mask)],
     ["mean age of faces, frames", significant(faceAgeOf(cell))],
     ...Object.entries(counters).map(([name, value]) => [name.replaceAll("_", " "), value.toLocaleString("en-US")]),
   ];
@@ -111,40 +111,35 @@ const regionColumns = [
   numberColumn("relmse", "relMSE", (row) => row.relmse ?? NaN),
   numberColumn("bias", "bias", (row) => row.bias ?? NaN),
 ];
-const byShare = {key: "share", descending: true};
 
-function objectTable(cell) {
-  const columns = [
-    {key: "object", title: "object", left: true, text: (row) => row.object},
-    {key: "material", title: "material", left: true, text: (row) => row.material ?? ""},
+const textColumn = (key) => ({key, title: key, left: true, text: (row) => row[key] ?? ""});
+
+// What each object or material adds to the error, the largest share first.
+function shareTable(what, rows, columns) {
+  if (!rows?.length) return null;
+  return new Table({
+    caption: `Errors by ${what}`,
+    columns,
+    rows,
+    rowKey: (row) => row[what],
+    sort: {key: "share", descending: true},
+    filterable: rows.length > 12,
+  }).element;
+}
+
+const objectTable = (cell) =>
+  shareTable("object", cell.objects, [
+    textColumn("object"),
+    textColumn("material"),
     ...regionColumns,
     {key: "probe", title: "probe", text: (row) => String(row.probe ?? "–")},
     numberColumn("distance", "distance m", (row) => row.probe_distance ?? NaN, {
       note: "from the surface to its probe, mean",
     }),
     numberColumn("roughness", "roughness", (row) => row.roughness ?? NaN),
-  ];
-  return new Table({
-    caption: "Errors by object",
-    columns,
-    rows: cell.objects,
-    rowKey: (row) => row.object,
-    sort: byShare,
-    filterable: cell.objects.length > 12,
-  }).element;
-}
+  ]);
 
-function materialTable(cell) {
-  const columns = [{key: "material", title: "material", left: true, text: (row) => row.material}, ...regionColumns];
-  return new Table({
-    caption: "Errors by material",
-    columns,
-    rows: cell.materials,
-    rowKey: (row) => row.material,
-    sort: byShare,
-    filterable: cell.materials.length > 12,
-  }).element;
-}
+const materialTable = (cell) => shareTable("material", cell.materials, [textColumn("material"), ...regionColumns]);
 
 export function cellDetails(cell, viewer, pictures) {
   const crops = element("div");
@@ -166,7 +161,7 @@ export function cellDetails(cell, viewer, pictures) {
       errorTable(cell),
       pairsTable("Cost and work", costPairs(cell)),
     ),
-    cell.objects?.length ? objectTable(cell) : null,
-    cell.materials?.length ? materialTable(cell) : null,
+    objectTable(cell),
+    materialTable(cell),
   ];
 }

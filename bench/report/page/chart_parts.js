@@ -10,6 +10,33 @@ export function legend(name, title) {
 
 export const colourScale = (name, colours, values) => ({name, type: "ordinal", domain: values, range: colours.series});
 
+const PLACE = {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}};
+
+// A line through the rows of `data`; `style` holds further channels.
+export const line = (data, style) => ({
+  type: "line",
+  from: {data},
+  interactive: false,
+  encode: {update: {...PLACE, ...style}},
+});
+
+// The rows of "points" as symbols that open their cell, larger when pointed at; `style` holds further channels.
+export const symbols = (size, style = {}) => ({
+  type: "symbol",
+  from: {data: "points"},
+  encode: {
+    update: {
+      ...PLACE,
+      fill: {scale: "colour", field: "colour"},
+      size: {value: size},
+      tooltip: {field: "title"},
+      cursor: {value: "pointer"},
+      ...style,
+    },
+    hover: {size: {value: 2 * size}},
+  },
+});
+
 // Intervals as rules: of the cost along x, of the error along y.
 export function bars(data, horizontal, colour) {
   const along = horizontal

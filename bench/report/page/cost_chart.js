@@ -1,6 +1,6 @@
 // Error against cost, with the Pareto front.
 import {Chart, numberAxis, scaleFor} from "./chart.js";
-import {bars, colourScale, legend, metricTitle} from "./chart_parts.js";
+import {bars, colourScale, legend, line, metricTitle, symbols} from "./chart_parts.js";
 import {COSTS, isMoreBetter, meanError, meanInterval} from "./model.js";
 import {significant, sortedValues} from "./numbers.js";
 import {paretoFront} from "./pareto.js";
@@ -32,7 +32,7 @@ function choiceOf(sequence, question, cost) {
 }
 
 export const frontOf = (view, question, cost) =>
-  paretoFront(view.sequences.map((s) => choiceOf(s, question, cost)).filter(Boolean));
+  paretoFront(view.sequences.map((s) => choiceOf(s, question, cost)).filter(Boolean), question);
 
 function scatterSpec(view, question, cost, colours) {
   const choices = view.sequences.map((s) => choiceOf(s, question, cost)).filter(Boolean);
@@ -50,7 +50,7 @@ function scatterSpec(view, question, cost, colours) {
     index: c.sequence.cells.at(-1).index,
     title: `${c.sequence.label}\n${metricTitle(question)} ${significant(c.y)}\n${cost.title} ${significant(c.x)}`,
   });
-  const front = paretoFront(choices).map(pointOf);
+  const front = paretoFront(choices, question).map(pointOf);
   const values = choices.map(pointOf);
   const distinct = (field) => sortedValues([...new Set(values.map((v) => v[field]))]);
   const shapes = second && distinct("shape").length > 1;
@@ -89,41 +89,19 @@ function scatterSpec(view, question, cost, colours) {
           : []),
       ],
       marks: [
-        {
-          type: "line",
-          from: {data: "front"},
-          interactive: false,
-          encode: {
-            update: {
-              x: {scale: "x", field: "x"},
-              y: {scale: "y", field: "y"},
-              interpolate: {value: "step-after"},
-              stroke: {value: colours.accent},
-              strokeWidth: {value: 1.5},
-              strokeDash: {value: [5, 3]},
-            },
-          },
-        },
+        line("front", {
+          interpolate: {value: "step-after"},
+          stroke: {value: colours.accent},
+          strokeWidth: {value: 1.5},
+          strokeDash: {value: [5, 3]},
+        }),
         bars("points", true, colours.quiet),
         bars("points", false, colours.quiet),
-        {
-          type: "symbol",
-          from: {data: "points"},
-          encode: {
-            update: {
-              x: {scale: "x", field: "x"},
-              y: {scale: "y", field: "y"},
-              fill: {scale: "colour", field: "colour"},
-              shape: {scale: "shape", field: "shape"},
-              size: {value: 80},
-              stroke: {value: colours.surface},
-              strokeWidth: {value: 1},
-              tooltip: {field: "title"},
-              cursor: {value: "pointer"},
-            },
-            hover: {size: {value: 150}},
-          },
-        },
+        symbols(80, {
+          shape: {scale: "shape", field: "shape"},
+          stroke: {value: colours.surface},
+          strokeWidth: {value: 1},
+        }),
       ],
     },
   };

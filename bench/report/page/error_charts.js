@@ -1,6 +1,6 @@
 // Charts of errors: against each axis of the technique, over time and against staleness.
 import {Chart, numberAxis, scaleFor} from "./chart.js";
-import {bars, colourScale, legend, metricTitle} from "./chart_parts.js";
+import {bars, colourScale, legend, line, metricTitle, symbols} from "./chart_parts.js";
 import {errorOf, faceAgeOf, intervalOf, meanError, meanInterval} from "./model.js";
 import {significant} from "./numbers.js";
 
@@ -9,12 +9,13 @@ const isNumeric = (values) => values.every((v) => v !== "" && Number.isFinite(Nu
 // --- Lines
 
 // points: [{x, y, low, high, colour, index, title}]; x as text is a category.
-function linesSpec(points, {xTitle, yTitle, colourTitle, xValues, colourValues, categories}, colours) {
+function linesSpec(points, {xTitle, yTitle, colourTitle, xValues, colourValues, categories, note}, colours) {
   if (points.length < 2 || xValues.length < 2) return null;
   const x = categories
     ? {name: "x", type: "point", domain: xValues, range: "width", padding: 0.3}
     : {name: "x", type: "linear", zero: false, padding: 8, domain: {data: "points", field: "x"}, range: "width"};
   return {
+    note,
     spec: {
       data: [{name: "points", values: points}],
       scales: [
@@ -33,38 +34,10 @@ function linesSpec(points, {xTitle, yTitle, colourTitle, xValues, colourValues, 
         {
           type: "group",
           from: {facet: {name: "series", data: "points", groupby: "colour"}},
-          marks: [
-            {
-              type: "line",
-              from: {data: "series"},
-              interactive: false,
-              encode: {
-                update: {
-                  x: {scale: "x", field: "x"},
-                  y: {scale: "y", field: "y"},
-                  stroke: {scale: "colour", field: "colour"},
-                  strokeWidth: {value: 2},
-                },
-              },
-            },
-          ],
+          marks: [line("series", {stroke: {scale: "colour", field: "colour"}, strokeWidth: {value: 2}})],
         },
         bars("points", false, colours.quiet),
-        {
-          type: "symbol",
-          from: {data: "points"},
-          encode: {
-            update: {
-              x: {scale: "x", field: "x"},
-              y: {scale: "y", field: "y"},
-              fill: {scale: "colour", field: "colour"},
-              size: {value: 45},
-              tooltip: {field: "title"},
-              cursor: {value: "pointer"},
-            },
-            hover: {size: {value: 110}},
-          },
-        },
+        symbols(45),
       ],
     },
   };
@@ -109,7 +82,7 @@ function axisSpec(view, axis, question, colours) {
     })
     .filter((p) => Number.isFinite(p.y))
     .sort((a, b) => axis.values.indexOf(a.x) - axis.values.indexOf(b.x));
-  const made = linesSpec(
+  return linesSpec(
     points,
     {
       xTitle: axis.name,
@@ -118,10 +91,10 @@ function axisSpec(view, axis, question, colours) {
       xValues: axis.values,
       colourValues: colourAxis?.values ?? ["–"],
       categories: true,
+      note,
     },
     colours,
   );
-  return made && {...made, note};
 }
 
 export function axisChart(context, axis) {
@@ -156,7 +129,7 @@ function timeSpec(view, question, colours, valueOf, yTitle) {
       }),
     )
     .filter((p) => Number.isFinite(p.y));
-  const made = linesSpec(
+  return linesSpec(
     points,
     {
       xTitle: "frame",
@@ -165,10 +138,10 @@ function timeSpec(view, question, colours, valueOf, yTitle) {
       xValues: view.frames,
       colourValues: axis?.values ?? ["–"],
       categories: false,
+      note,
     },
     colours,
   );
-  return made && {...made, note};
 }
 
 export function timeCharts(context) {
@@ -229,23 +202,7 @@ function stalenessSpec(view, question, colours) {
         numberAxis("y", "left", metricTitle(question)),
       ],
       legends: axis ? [legend("colour", axis.name)] : [],
-      marks: [
-        {
-          type: "symbol",
-          from: {data: "points"},
-          encode: {
-            update: {
-              x: {scale: "x", field: "x"},
-              y: {scale: "y", field: "y"},
-              fill: {scale: "colour", field: "colour"},
-              fillOpacity: {value: 0.8},
-              size: {value: 45},
-              tooltip: {field: "title"},
-              cursor: {value: "pointer"},
-            },
-          },
-        },
-      ],
+      marks: [symbols(45, {fillOpacity: {value: 0.8}})],
     },
     note: "Every measured frame of every technique.",
   };

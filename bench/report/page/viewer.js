@@ -2,9 +2,10 @@
 // as FLIP's map of the error.
 import {announce, choice, element} from "./dom.js";
 import {significant} from "./numbers.js";
-import {developed, difference, valueAt} from "./pictures.js";
+import {valueAt} from "./pictures.js";
 import {Lens, Stage} from "./stage.js";
 import {MAX_STOPS, MODES, exposureControls, keyHelp, modeControls, zoomControls} from "./viewer_controls.js";
+import {Developer, planOf} from "./viewer_plan.js";
 
 export class Viewer {
   // picturesOf(cell): the Pictures of the cell's run. alternatives(cell): [{value, title, path, pictures}] beside the reference.
@@ -24,7 +25,7 @@ export class Viewer {
     this.lens = new Lens(() => this.draw());
     this.stages = [new Stage(this.lens), new Stage(this.lens)];
     this.stages[0].onDivider = null;
-    this.developedOnes = new Map();
+    this.developer = new Developer();
     this.build();
     new ResizeObserver(() => this.draw()).observe(this.screen);
   }
@@ -151,49 +152,9 @@ export class Viewer {
     this.message.hidden = !text;
   }
 
-  // The picture at the present exposure.
-  developed(picture) {
-    if (this.developedStops !== this.stops) this.developedOnes.clear();
-    this.developedStops = this.stops;
-    if (!this.developedOnes.has(picture)) this.developedOnes.set(picture, developed(picture, this.stops));
-    return this.developedOnes.get(picture);
-  }
-
-  // What each stage shows: [{label, parts}].
-  plan() {
-    const {rendered, against, map, againstTitle} = this.shown;
-    const all = (label, picture) => ({label, parts: [{picture, from: 0, to: 1}]});
-    if (!rendered || !against) return [all(rendered ? "rendered" : againstTitle, this.developed(rendered ?? against))];
-    switch (this.mode) {
-      case "side":
-        return [all(againstTitle, this.developed(against)), all("rendered", this.developed(rendered))];
-      case "split":
-        return [
-          {
-            label: `${againstTitle} | rendered`,
-            divider: true,
-            parts: [
-              {picture: this.developed(against), from: 0, to: this.divider},
-              {picture: this.developed(rendered), from: this.divider, to: 1},
-            ],
-          },
-        ];
-      case "difference":
-        return [all(`|rendered − ${againstTitle}|`, difference(rendered, against, this.stops))];
-      case "error":
-        return [
-          map
-            ? all("FLIP map of rendered against reference", map)
-            : all("rendered (no FLIP map was kept)", this.developed(rendered)),
-        ];
-      default:
-        return [this.flipped ? all(againstTitle, this.developed(against)) : all("rendered", this.developed(rendered))];
-    }
-  }
-
   draw() {
     if (!this.shown?.rendered && !this.shown?.against) return;
-    const plan = this.plan();
+    const plan = planOf(this);
     this.screen.dataset.stages = plan.length;
     this.legend.classList.toggle("shown", this.mode === "error");
     this.stages.forEach((stage, i) => {
