@@ -1,11 +1,12 @@
 #include "bench/candidates.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
-#include <regex>
 #include <set>
 
+#include "bench/regex.h"
 #include "scenes/error.h"
 #include "scenes/spec.h"
 
@@ -14,12 +15,6 @@ namespace {
 
 constexpr char kPresetAxis[] = "preset";
 constexpr char kNoPreset[] = "none";
-
-bool lowerIsBetter(const std::string& metric) {
-  const auto& table = metricTable();
-  const auto found = std::ranges::find(table, metric, &MetricInfo::key);
-  return found == table.end() || found->lowerIsBetter;
-}
 
 // The numbers that results hold of single objects and materials.
 constexpr std::pair<const char*, double RegionErrors::*> kRegionMetrics[] = {{"mse", &RegionErrors::mse},
@@ -51,18 +46,10 @@ std::optional<double> errorOfObject(const CellResult& cell, const Selection& sel
   return errorOf(cell.materials, &MaterialError::material, selection);
 }
 
-std::regex compile(const std::string& expression) {
-  try {
-    return std::regex(expression);
-  } catch (const std::regex_error&) {
-    throwInputError("--scene wants a regular expression, got '{}'", expression);
-  }
-}
-
 std::vector<Section> chosenSections(const Results& results, const std::string& pattern) {
   std::vector<Section> sections = sectionsOf(results.cells);
   std::erase_if(sections, [](const Section& section) { return section.sequences.empty(); });
-  const std::regex regex = compile(pattern);
+  const std::regex regex = compileRegex(pattern, "--scene");
   std::vector<std::string> names;
   for (const Section& section : sections) names.push_back(section.sequences.front().front()->scene);
   std::erase_if(sections, [&](const Section& section) {
@@ -85,28 +72,27 @@ void requireObject(const std::vector<Section>& sections, const std::string& obje
   throwInputError("object {}", unknownMessage(object, std::vector(names.begin(), names.end())));
 }
 
-// Over the frames. The interval of a mean is the mean of the intervals: what is wrong with one frame's reference may be
-// wrong with all of them alike. Frames without one take it from those that have one.
-std::optional<Estimate> sequenceLoss(const Sequence& sequence, const Selection& selection, Region region) {
-  std::optional<Estimate> worst;
-  double sum = 0, below = 0, above = 0;
-  int count = 0, known = 0;
+struct SequenceLoss {
+  Estimate loss;
+  int worstFrame = 0;
+};
+
+// Over the frames.
+std::optional<SequenceLoss> sequenceLoss(const Sequence& sequence, const Selection& selection, Region region) {
+  std::vector<FrameEstimate> frames;
+  std::optional<SequenceLoss> worst;
   for (const CellResult* cell : sequence) {
     const std::optional<Estimate> loss = lossOf(*cell, selection, region);
     if (!loss) continue;
-    if (!worst || loss->value > worst->value) worst = loss;
-    sum += loss->value;
-    ++count;
-    if (!loss->hasInterval()) continue;
-    below += loss->value - loss->low;
-    above += loss->high - loss->value;
-    ++known;
+    if (!worst || loss->value > worst->loss.value) worst = {*loss, cell->frame};
+    frames.push_back({*loss, loss->hasInterval()});
   }
   if (!worst) return std::nullopt;
-  const double value = selection.worstFrame ? worst->value : sum / count;
-  if (selection.worstFrame && worst->hasInterval()) return worst;
-  if (known == 0) return Estimate{value, value, value};
-  return Estimate{value, value - below / known, value + above / known};
+  const Estimate mean = meanOverFrames(frames);
+  if (!selection.worstFrame) return SequenceLoss{mean, worst->worstFrame};
+  if (worst->loss.hasInterval()) return worst;
+  const double value = worst->loss.value;
+  return SequenceLoss{{value, value - (mean.value - mean.low), value + (mean.high - mean.value)}, worst->worstFrame};
 }
 
 void takeLarger(std::optional<Estimate>& largest, const Estimate& other) {
@@ -115,10 +101,12 @@ void takeLarger(std::optional<Estimate>& largest, const Estimate& other) {
 
 // Takes the scene's numbers in where they are the worst so far; false if the error is undefined there.
 bool addScene(Candidate& candidate, const Sequence& sequence, const Selection& selection, Region region) {
-  const std::optional<Estimate> loss = sequenceLoss(sequence, selection, region);
-  if (!loss) return false;
-  if (candidate.worstCells.empty() || loss->value > candidate.loss.value) {
-    candidate.loss = *loss;
+  const std::optional<SequenceLoss> found = sequenceLoss(sequence, selection, region);
+  if (!found) return false;
+  if (candidate.worstCells.empty() || found->loss.value > candidate.loss.value) {
+    candidate.loss = found->loss;
+    candidate.worstFrame = found->worstFrame;
+    candidate.region = region;
     candidate.worstScene = sequence.front()->scene;
     candidate.worstCells = sequence;
   }
@@ -159,12 +147,26 @@ AxisValues commonValues(const std::vector<Candidate>& candidates, const std::vec
 
 }  // namespace
 
-double lossOf(const std::string& metric, double value) {
-  if (metric == "bias") return std::abs(value);
-  return lowerIsBetter(metric) ? value : -value;
+Estimate meanOverFrames(const std::vector<FrameEstimate>& frames) {
+  assert(!frames.empty());
+  double sum = 0, below = 0, above = 0, known = 0;
+  for (const auto& [estimate, isKnown] : frames) {
+    sum += estimate.value;
+    if (!isKnown) continue;
+    below += estimate.value - estimate.low;
+    above += estimate.high - estimate.value;
+    ++known;
+  }
+  const double value = sum / static_cast<double>(frames.size());
+  return known > 0 ? Estimate{value, value - below / known, value + above / known} : Estimate{value, value, value};
 }
 
-double metricOfLoss(const std::string& metric, double loss) { return lowerIsBetter(metric) ? loss : -loss; }
+double lossOf(const std::string& metric, double value) {
+  if (metric == "bias") return std::abs(value);
+  return isLowerBetter(metric) ? value : -value;
+}
+
+double metricOfLoss(const std::string& metric, double loss) { return isLowerBetter(metric) ? loss : -loss; }
 
 std::optional<Estimate> lossOf(const CellResult& cell, const Selection& selection, Region region) {
   const std::optional<double> value =
@@ -182,7 +184,12 @@ CandidateSet candidatesOf(const Results& results, const Selection& selection) {
   metricValue({}, selection.metric);  // refuses an unknown one
   const std::vector<Section> sections = chosenSections(results, selection.scenes);
   if (!selection.object.empty()) requireObject(sections, selection.object);
+  return candidatesOf(sections, selection);
+}
+
+CandidateSet candidatesOf(const std::vector<Section>& sections, const Selection& selection) {
   CandidateSet set;
+  set.selection = selection;
   std::map<AxisValues, std::size_t> places;            // of techniques in `all`
   std::vector<std::pair<Candidate, std::size_t>> all;  // with the number of scenes
   std::size_t scenes = 0;

@@ -29,9 +29,12 @@ struct Candidate {
   double probeBytes = 0;                      // likewise
   bool clearOfFloor = true;                   // on all scenes
   std::vector<const CellResult*> worstCells;  // frames of the worst scene
+  Region region = Region::whole;              // of that scene
+  int worstFrame = 0;                         // of these, where the error is largest: the first of several
 };
 
 struct CandidateSet {
+  Selection selection;                // that they were asked for by
   std::vector<Candidate> candidates;  // measured on all scenes, in the order of the run
   std::vector<std::string> scenes;
   std::vector<VaryingAxis> axes;  // in which the candidates differ
@@ -39,6 +42,15 @@ struct CandidateSet {
   std::size_t elsewhere = 0;      // techniques that were measured on some of the scenes only
   bool onMask = false;            // some errors are of the mask
 };
+
+// A number at one measured frame. Known: its interval is that of the reference's noise, be it of no width.
+struct FrameEstimate {
+  Estimate estimate;
+  bool isKnown = false;
+};
+// The interval of a mean is the mean of the intervals: what is wrong with one frame's reference may be wrong with all
+// of them alike. Frames of which none is known take it from those of which one is. `frames` must not be empty.
+Estimate meanOverFrames(const std::vector<FrameEstimate>& frames);
 
 // The value where less is better, its negative where more is, its amount for "bias".
 double lossOf(const std::string& metric, double value);
@@ -52,6 +64,8 @@ std::optional<Estimate> lossOf(const CellResult& cell, const Selection& selectio
 // Throws input Errors for an unknown metric, a pattern that is no regular expression or matches no scene, and an object
 // that no scene shows. The cells must outlive the result.
 CandidateSet candidatesOf(const Results& results, const Selection& selection);
+// Of these sections, whatever their names; those of the selection's scenes and object are not looked for.
+CandidateSet candidatesOf(const std::vector<Section>& sections, const Selection& selection);
 
 // "resolution=128 bounces=2": what a candidate has of the axes in which they differ, without what is common; a preset
 // speaks for all of its settings.

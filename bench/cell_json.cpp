@@ -49,6 +49,9 @@ CellPictures picturesFromJson(const Json& json) {
 void addOptionalParts(const CellResult& cell, Json& json) {
   if (!cell.intervals.empty()) json["intervals"] = intervalsToJson(cell.intervals);
   if (!cell.maskIntervals.empty()) json["mask_intervals"] = intervalsToJson(cell.maskIntervals);
+  if (!cell.replicates.empty()) json["replicates"] = replicatesToJson(cell.replicates);
+  if (!cell.maskReplicates.empty()) json["mask_replicates"] = replicatesToJson(cell.maskReplicates);
+  if (!cell.referenceHash.empty()) json["reference_hash"] = cell.referenceHash;
   if (cell.matched) json["matched"] = matchedToJson(*cell.matched);
   if (cell.pictures != CellPictures()) json["pictures"] = picturesToJson(cell.pictures);
   if (!cell.integrity.empty()) json["integrity"] = metricValuesToJson(cell.integrity);
@@ -61,6 +64,7 @@ void readOptionalParts(const Json& json, CellResult& cell) {
   const auto read = [&](const char* key, auto& member, auto fromJson) {
     if (const auto part = json.find(key); part != json.end()) member = fromJson(*part);
   };
+  const auto toText = [](const Json& part) { return part.get<std::string>(); };
   const auto toInts = [](const Json& part) { return part.get<std::vector<int>>(); };
   read("reported_cost", cell.reportedCost, reportedCostFromJson);
   read("coats_of_probes", cell.coatsOfProbes, toInts);
@@ -69,6 +73,9 @@ void readOptionalParts(const Json& json, CellResult& cell) {
   read("integrity", cell.integrity, metricValuesFromJson);
   read("intervals", cell.intervals, intervalsFromJson);
   read("mask_intervals", cell.maskIntervals, intervalsFromJson);
+  read("replicates", cell.replicates, replicatesFromJson);
+  read("mask_replicates", cell.maskReplicates, replicatesFromJson);
+  read("reference_hash", cell.referenceHash, toText);
   read("matched", cell.matched, matchedFromJson);
   read("objects", cell.objects, objectsFromJson);
   read("clusters", cell.clusters, clustersFromJson);

@@ -22,6 +22,9 @@ MetricValues metricValuesFromJson(const Json& json);
 Json intervalsToJson(const MetricIntervals& intervals);
 MetricIntervals intervalsFromJson(const Json& json);
 
+Json replicatesToJson(const MetricReplicates& replicates);
+MetricReplicates replicatesFromJson(const Json& json);
+
 Json costToJson(const std::optional<CostResult>& cost);  // null where there is none
 std::optional<CostResult> costFromJson(const Json& json);
 

@@ -52,6 +52,24 @@ MetricIntervals intervalsFromJson(const Json& json) {
   return intervals;
 }
 
+Json replicatesToJson(const MetricReplicates& replicates) {
+  Json json = Json::object();
+  for (const auto& [key, values] : replicates) {
+    Json& array = json[key] = Json::array();
+    for (const double value : values) array.push_back(encodeNumber(value));
+  }
+  return json;
+}
+
+MetricReplicates replicatesFromJson(const Json& json) {
+  MetricReplicates replicates;
+  for (const auto& [key, array] : json.items()) {
+    std::vector<double>& values = replicates.emplace_back(key, std::vector<double>()).second;
+    for (const Json& value : array) values.push_back(decodeNumber(value));
+  }
+  return replicates;
+}
+
 Json matchedToJson(const MatchedErrors& matched) {
   return {{"depth", matched.depth},
           {"converged", matched.converged},

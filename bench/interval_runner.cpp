@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "bench/hash.h"
 #include "bench/interrupt.h"
 #include "bench/jackknife.h"
 #include "bench/truth.h"
@@ -31,22 +32,29 @@ class Replicates {
  public:
   void add(const Metrics& metrics) { all_.push_back(valuesOf(metrics)); }
 
-  MetricIntervals intervals(const Metrics& metrics) const {
-    const Values values = valuesOf(metrics);
-    MetricIntervals intervals;
+  // Of the metrics that are defined against all references without a batch: so all cells have theirs in one order.
+  MetricReplicates byMetric() const {
+    MetricReplicates replicates;
     for (std::size_t m = 0; m < kMetricCount; ++m) {
-      std::vector<double> replicates;
+      std::vector<double> values;
       for (const Values& replicate : all_)
-        if (replicate[m]) replicates.push_back(*replicate[m]);
-      if (values[m] && replicates.size() >= 2)
-        intervals.emplace_back(kIntervalMetrics[m], jackknifeInterval(*values[m], replicates));
+        if (replicate[m]) values.push_back(*replicate[m]);
+      if (values.size() == all_.size()) replicates.emplace_back(kIntervalMetrics[m], std::move(values));
     }
-    return intervals;
+    return replicates;
   }
 
  private:
   std::vector<Values> all_;
 };
+
+MetricIntervals intervalsOf(const Metrics& metrics, const MetricReplicates& replicates) {
+  MetricIntervals intervals;
+  for (const auto& [metric, values] : replicates)
+    if (const std::optional<double> value = metricValue(metrics, metric))
+      intervals.emplace_back(metric, jackknifeInterval(*value, values));
+  return intervals;
+}
 
 MetricIntervals exactIntervals(const Metrics& metrics) {
   const Values values = valuesOf(metrics);
@@ -54,6 +62,30 @@ MetricIntervals exactIntervals(const Metrics& metrics) {
   for (std::size_t m = 0; m < kMetricCount; ++m)
     if (values[m]) intervals.emplace_back(kIntervalMetrics[m], Interval{*values[m], *values[m]});
   return intervals;
+}
+
+void setExact(CellResult& cell) {
+  cell.intervals = exactIntervals(cell.metrics);
+  if (cell.maskMetrics) cell.maskIntervals = exactIntervals(*cell.maskMetrics);
+  cell.replicates = cell.maskReplicates = {};
+  cell.referenceHash.clear();
+}
+
+// Equal for equal pictures in the same order.
+std::string hashOf(const std::vector<Image>& batches) {
+  std::string hashes;
+  for (const Image& batch : batches)
+    hashes += hexHash({reinterpret_cast<const char*>(batch.data()), batch.size() * sizeof(batch[0])});
+  return hexHash(hashes);
+}
+
+void setNoise(CellResult& cell, MetricReplicates whole, MetricReplicates masked, const std::string& referenceHash) {
+  cell.intervals = intervalsOf(cell.metrics, whole);
+  cell.replicates = std::move(whole);
+  cell.referenceHash = referenceHash;
+  if (!cell.maskMetrics) return;
+  cell.maskIntervals = intervalsOf(*cell.maskMetrics, masked);
+  cell.maskReplicates = std::move(masked);
 }
 
 class IntervalRunner {
@@ -100,8 +132,7 @@ class IntervalRunner {
     const ReferenceImage reference = maker.reference(snapshot(scene, frame), warnings);
     if (reference.batches.size() < 2 || areEqual(reference.batches)) {
       for (CellResult* cell : group) {
-        cell->intervals = exactIntervals(cell->metrics);
-        if (cell->maskMetrics) cell->maskIntervals = exactIntervals(*cell->maskMetrics);
+        setExact(*cell);
         c_.progress.step();
       }
       return;
@@ -145,9 +176,9 @@ class IntervalRunner {
         if (scores.masked) masked[i].add(*scores.masked);
       });
     }
+    const std::string referenceHash = hashOf(reference.batches);
     for (std::size_t i = 0; i < group.size(); ++i) {
-      group[i]->intervals = whole[i].intervals(group[i]->metrics);
-      if (group[i]->maskMetrics) group[i]->maskIntervals = masked[i].intervals(*group[i]->maskMetrics);
+      setNoise(*group[i], whole[i].byMetric(), masked[i].byMetric(), referenceHash);
       c_.progress.step();
     }
   }

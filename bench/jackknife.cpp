@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "bench/statistics.h"
 
 namespace pb {
+
 Interval jackknifeInterval(double value, std::span<const double> replicates) {
   assert(replicates.size() >= 2);
   const double n = static_cast<double>(replicates.size());
@@ -17,6 +19,14 @@ Interval jackknifeInterval(double value, std::span<const double> replicates) {
   const double reach = studentT975(replicates.size() - 1) * std::sqrt((n - 1) / n * squares);
   const double unbiased = value - (n - 1) * (mean - value);
   return {std::min(value, unbiased) - reach, std::max(value, unbiased) + reach};
+}
+
+Interval jackknifeDifference(double a, std::span<const double> replicatesA, double b,
+                             std::span<const double> replicatesB) {
+  assert(replicatesA.size() == replicatesB.size());
+  std::vector<double> differences(replicatesA.size());
+  std::ranges::transform(replicatesA, replicatesB, differences.begin(), std::minus());
+  return jackknifeInterval(a - b, differences);
 }
 
 Image leaveOneOut(const Image& mean, const Image& batch, std::size_t batches) {

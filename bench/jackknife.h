@@ -16,6 +16,12 @@ namespace pb {
 // interval holds both F and F without the bias.
 Interval jackknifeInterval(double value, std::span<const double> replicates);
 
+// The same of F_a - F_b, from replicates against the same batches in the same order: what the noise does to both alike
+// cancels. So does their bias as far as they share it (of MSE all of it); what is left is allowed for as above, since
+// noise raises a small error by more than a large one where errors are not squares (FLIP).
+Interval jackknifeDifference(double a, std::span<const double> replicatesA, double b,
+                             std::span<const double> replicatesB);
+
 // The mean of all batches without one: (n mean - batch) / (n - 1).
 Image leaveOneOut(const Image& mean, const Image& batch, std::size_t batches);
 

@@ -7,9 +7,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <tuple>
 
-#include "bench/candidates.h"
+#include "bench/differences.h"
 #include "bench/tables.h"
 
 namespace pb {
@@ -24,24 +25,22 @@ constexpr const char* kMetrics[] = {kFlip,   "flip_ldr", "ssim", "ms_ssim", kRel
 // Errors nearer than this factor are the same for a reader, and no dispute.
 constexpr double kSmallestFactor = 1.05;
 
-using Losses = std::vector<std::optional<Estimate>>;  // by metric
+// SSIM of five scales is not defined on a mask.
+Region regionOf(const CellResult& cell, std::string_view metric) {
+  return cell.maskMetrics && metric != "ms_ssim" ? Region::mask : Region::whole;
+}
 
-Losses lossesOf(const CellResult& cell) {
-  const Region region = cell.maskMetrics ? Region::mask : Region::whole;
-  Losses losses;
-  for (const char* metric : kMetrics) {
-    Selection selection;
-    selection.metric = metric;
-    // SSIM of five scales is not defined on a mask.
-    losses.push_back(lossOf(cell, selection, metric == std::string("ms_ssim") ? Region::whole : region));
-  }
-  return losses;
+std::optional<Difference> differenceOf(const CellResult& a, const CellResult& b, const char* metric) {
+  Selection selection;
+  selection.metric = metric;
+  return differenceOf(a, b, selection, regionOf(a, metric));
 }
 
 // -1: a is better, 1: b is, 0: neither.
-int orderOf(const std::optional<Estimate>& a, const std::optional<Estimate>& b) {
-  if (!a || !b) return 0;
-  return a->isBelow(*b) ? -1 : b->isBelow(*a) ? 1 : 0;
+int orderOf(const CellResult& a, const CellResult& b, const char* metric) {
+  const std::optional<Difference> difference = differenceOf(a, b, metric);
+  if (!difference) return 0;
+  return difference->loss.isNegative() ? -1 : difference->loss.isPositive() ? 1 : 0;
 }
 
 // Cells that answer the same question.
@@ -59,13 +58,8 @@ std::vector<std::vector<const CellResult*>> groupsOf(const std::vector<CellResul
 class Audit {
  public:
   void add(const std::vector<const CellResult*>& group) {
-    std::vector<Losses> losses;
-    for (const CellResult* cell : group) losses.push_back(lossesOf(*cell));
     for (std::size_t i = 0; i < group.size(); ++i)
-      for (std::size_t j = i + 1; j < group.size(); ++j) {
-        count(losses[i], losses[j]);
-        if (const auto dispute = disputeOf(*group[i], *group[j], losses[i], losses[j])) disputes_.push_back(*dispute);
-      }
+      for (std::size_t j = i + 1; j < group.size(); ++j) add(*group[i], *group[j]);
   }
 
   MetricAudit result(std::size_t disputes) const {
@@ -86,15 +80,16 @@ class Audit {
   static constexpr std::size_t kCount = std::size(kMetrics);
   static constexpr std::size_t kFlipIndex = 0, kRelmseIndex = 4;
 
-  void count(const Losses& a, const Losses& b) {
+  void add(const CellResult& a, const CellResult& b) {
     ++pairs_;
     int orders[kCount];
     for (std::size_t m = 0; m < kCount; ++m) {
-      orders[m] = orderOf(a[m], b[m]);
+      orders[m] = orderOf(a, b, kMetrics[m]);
       if (orders[m] != 0) ++ordered_[m];
     }
     for (std::size_t m = 0; m < kCount; ++m)
       for (std::size_t n = m + 1; n < kCount; ++n) balance_[m][n] += orders[m] * orders[n];
+    if (orders[kFlipIndex] * orders[kRelmseIndex] < 0) addDispute(a, b, orders[kFlipIndex] < 0);
   }
 
   double tauB(std::size_t a, std::size_t b) const {
@@ -102,16 +97,13 @@ class Audit {
            std::sqrt(static_cast<double>(ordered_[a]) * static_cast<double>(ordered_[b]));
   }
 
-  static std::optional<MetricDispute> disputeOf(const CellResult& a, const CellResult& b, const Losses& lossesA,
-                                                const Losses& lossesB) {
-    const int flip = orderOf(lossesA[kFlipIndex], lossesB[kFlipIndex]);
-    const int relmse = orderOf(lossesA[kRelmseIndex], lossesB[kRelmseIndex]);
-    if (flip * relmse >= 0) return std::nullopt;
-    const auto factor = [](double x, double y) { return std::max(x, y) / std::min(x, y); };
-    const double flipFactor = factor(lossesA[kFlipIndex]->value, lossesB[kFlipIndex]->value);
-    const double relmseFactor = factor(lossesA[kRelmseIndex]->value, lossesB[kRelmseIndex]->value);
-    if (flipFactor < kSmallestFactor || relmseFactor < kSmallestFactor) return std::nullopt;
-    return MetricDispute{flip < 0 ? &a : &b, relmse < 0 ? &a : &b, flipFactor, relmseFactor};
+  void addDispute(const CellResult& a, const CellResult& b, bool isABetterByFlip) {
+    const auto factor = [&](const char* metric) {
+      const double x = *errorOf(a, regionOf(a, metric), metric), y = *errorOf(b, regionOf(a, metric), metric);
+      return std::max(x, y) / std::min(x, y);
+    };
+    const MetricDispute dispute{isABetterByFlip ? &a : &b, isABetterByFlip ? &b : &a, factor(kFlip), factor(kRelmse)};
+    if (dispute.flipFactor >= kSmallestFactor && dispute.relmseFactor >= kSmallestFactor) disputes_.push_back(dispute);
   }
 
   std::vector<MetricDispute> largest(std::size_t count) const {
@@ -192,8 +184,8 @@ std::string metricAuditText(const MetricAudit& audit) {
   std::string text = fmt::format(
       "## Do the metrics agree?\n\n{} pairs of techniques on the same scene and frame, ordered by each metric (on the "
       "mask where there is one; MS-SSIM on the whole image). Kendall's tau-b: 1 where two metrics order all pairs "
-      "alike, -1 where oppositely; pairs within their 95 % intervals count as ties, those of metrics without an "
-      "interval "
+      "alike, -1 where oppositely; pairs whose difference is within its 95 % interval count as ties, those of metrics "
+      "without an interval "
       "(mae, smape, psnr, max_abs) only where the values are the same.\n\n{}\n",
       audit.pairs, toMarkdown(agreementTable(audit)));
   text += fmt::format("FLIP-HDR and relMSE order {} {} oppositely, by {:.0f} % or more in both{}\n\n", audit.disputed,

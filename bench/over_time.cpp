@@ -12,12 +12,6 @@ namespace {
 
 using CellValue = std::function<std::optional<double>(const CellResult&)>;
 
-bool isLowerBetter(const std::string& metric) {
-  const auto& table = metricTable();
-  const auto found = std::ranges::find(table, metric, &MetricInfo::key);
-  return found == table.end() || found->lowerIsBetter;
-}
-
 std::optional<FrameSummary> summarize(const Sequence& sequence, const CellValue& valueOf, bool lowerIsBetter) {
   const double sign = lowerIsBetter ? 1.0 : -1.0;
   FrameSummary summary;

@@ -7,16 +7,23 @@
 
 namespace pb {
 
-bool dominates(const Tradeoff& a, const Tradeoff& b) {
+bool dominates(const Tradeoff& a, const Tradeoff& b, const std::optional<Estimate>& errorDifference) {
   const bool noWorse = a.error.value <= b.error.value && a.cost.value <= b.cost.value;
-  return noWorse && (a.error.isBelow(b.error) || a.cost.isBelow(b.cost));
+  return noWorse && (errorDifference.value_or(unpairedDifference(a.error, b.error)).isNegative() ||
+                     unpairedDifference(a.cost, b.cost).isNegative());
 }
 
-std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices) {
+std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices, const ErrorDifference& errorDifference) {
+  const auto isDominatedBy = [&](std::size_t i, std::size_t other) {
+    return dominates(choices[other], choices[i],
+                     errorDifference ? std::optional(errorDifference(other, i)) : std::nullopt);
+  };
   std::vector<std::size_t> front;
-  for (std::size_t i = 0; i < choices.size(); ++i)
-    if (std::ranges::none_of(choices, [&](const Tradeoff& other) { return dominates(other, choices[i]); }))
-      front.push_back(i);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    bool isDominated = false;
+    for (std::size_t other = 0; other < choices.size() && !isDominated; ++other) isDominated = isDominatedBy(i, other);
+    if (!isDominated) front.push_back(i);
+  }
   std::ranges::sort(front, {},
                     [&](std::size_t i) { return std::tuple(choices[i].cost.value, choices[i].error.value, i); });
   return front;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,12 +15,15 @@ struct Tradeoff {
   Estimate error, cost;
 };
 
-// No worse in either value, and better in one of them by more than both intervals: differences that may be chance
-// dominate nothing.
-bool dominates(const Tradeoff& a, const Tradeoff& b);
+// The error of choice i less that of choice j.
+using ErrorDifference = std::function<Estimate(std::size_t i, std::size_t j)>;
+
+// No worse in either value, and better in one of them by a difference that is sure: those that may be chance dominate
+// nothing. errorDifference: of a less b; without it that of errors of which nothing is known in common.
+bool dominates(const Tradeoff& a, const Tradeoff& b, const std::optional<Estimate>& errorDifference = {});
 
 // Indices of those that nothing dominates, by cost, then error, then index.
-std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices);
+std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices, const ErrorDifference& errorDifference = {});
 
 // The choice of the front farthest below the straight line from its cheapest to its most exact one, in log(cost) and
 // log(error), each scaled to [0, 1]: where paying more stops to pay (Satopaa et al., "Finding a Kneedle in a Haystack",

@@ -1,12 +1,12 @@
 #include "bench/plan.h"
 
 #include <algorithm>
-#include <regex>
 #include <set>
 
 #include "bench/attribution_cells.h"
 #include "bench/axes.h"
 #include "bench/counted.h"
+#include "bench/regex.h"
 #include "scenes/error.h"
 #include "scenes/spec.h"
 
@@ -55,14 +55,6 @@ std::vector<Technique> techniquesOf(const SuiteScene& scene, const std::vector<T
   return techniques;
 }
 
-std::regex compile(const std::string& expression) {
-  try {
-    return std::regex(expression);
-  } catch (const std::regex_error&) {
-    throwInputError("--only wants a regular expression, got '{}'", expression);
-  }
-}
-
 // Cells are told apart by their keys.
 void requireDistinct(const Suite& suite, const std::vector<PlannedSequence>& sequences) {
   std::set<std::string> keys;
@@ -72,7 +64,7 @@ void requireDistinct(const Suite& suite, const std::vector<PlannedSequence>& seq
 }
 
 void keepOnly(const Suite& suite, const std::string& expression, std::vector<PlannedSequence>& sequences) {
-  const std::regex regex = compile(expression);
+  const std::regex regex = compileRegex(expression, "--only");
   for (PlannedSequence& sequence : sequences)
     std::erase_if(sequence.frames,
                   [&](int frame) { return !std::regex_search(makeCell(suite, sequence, frame).key(), regex); });

@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "bench/differences.h"
 #include "bench/pareto.h"
 #include "scenes/error.h"
 #include "scenes/spec.h"
@@ -71,13 +72,13 @@ std::string valueOf(const AxisValues& technique, const std::string& axis) {
   return {};
 }
 
-Step makeStep(const std::string& axis, const Candidate& from, const Candidate& to) {
+Step makeStep(const std::string& axis, const CandidateSet& set, std::size_t first, std::size_t second) {
+  const Candidate &from = set.candidates[first], &to = set.candidates[second];
   Step step{axis, valueOf(from.technique, axis), valueOf(to.technique, axis)};
-  step.gain = from.loss.value - to.loss.value;
-  step.verdict = verdictOf(to.loss, from.loss, to.clearOfFloor, from.clearOfFloor);
-  // As of independent errors. Both are scored against the same reference, whose noise moves them alike: on the safe
-  // side.
-  step.plusMinus = std::hypot(from.loss.plusMinus(), to.loss.plusMinus());
+  const Difference rise = differenceOf(set, second, first);
+  step.gain = -rise.loss.value;
+  step.verdict = verdictOf(rise, to.clearOfFloor || from.clearOfFloor);
+  step.plusMinus = rise.loss.plusMinus();
   if (from.ratio && to.ratio)
     step.costFactor = Estimate{to.ratio->value / from.ratio->value, to.ratio->low / from.ratio->high,
                                to.ratio->high / from.ratio->low};
@@ -111,8 +112,9 @@ std::vector<Step> stepsFrom(const CandidateSet& set, std::size_t candidate) {
   std::vector<Step> steps;
   for (const VaryingAxis& axis : set.axes) {
     std::vector<Step> along;
-    for (const Candidate& to : set.candidates)
-      if (soleDifference(from.technique, to.technique) == axis.name) along.push_back(makeStep(axis.name, from, to));
+    for (std::size_t to = 0; to < set.candidates.size(); ++to)
+      if (soleDifference(from.technique, set.candidates[to].technique) == axis.name)
+        along.push_back(makeStep(axis.name, set, candidate, to));
     if (!along.empty() && areNumbers(along)) along = nearestOf(along);
     steps.insert(steps.end(), along.begin(), along.end());
   }
@@ -137,7 +139,8 @@ Recommendation recommend(const Results& results, const RecommendRequest& request
   std::ranges::sort(answer.undecided, {}, rank);
   if (hasCosts(answer.set)) {
     const std::vector<Tradeoff> tradeoffs = tradeoffsOf(answer.set);
-    answer.front = paretoFront(tradeoffs);
+    answer.front =
+        paretoFront(tradeoffs, [&](std::size_t i, std::size_t j) { return differenceOf(answer.set, i, j).loss; });
     answer.knee = kneeOf(tradeoffs, answer.front);
   }
   if (answer.chosen) answer.steps = stepsFrom(answer.set, *answer.chosen);

@@ -60,9 +60,8 @@ std::string sectionText(const Section& section, const std::vector<std::string>& 
 constexpr char kLegend[] =
     "Errors are against the reference; `mask` is the pixels of reflective and refractive objects. `~` marks cells that "
     "are not clear of the reference's own noise (relMSE below 10 times its floor). Against the best: by FLIP-HDR; "
-    "equal "
-    "where the 95 % intervals overlap, below the floor where neither error is clear of the noise. p95 is the value "
-    "that "
+    "equal where the difference of the two, which have the noise of one reference in common, is within its 95 % "
+    "interval, below the floor where it is and neither error is clear of the noise. p95 is the value that "
     "95 % of the frames do not exceed. Costs are medians with their 95 % "
     "interval, of frames with one sample a pixel; `x plain` is relative to a frame of the same scene and size without "
     "captures; times by pass come from frames that were taken apart, which costs some of their overlap. A render is "

@@ -21,16 +21,16 @@ const CellResult* cellAt(const Sequence& sequence, int frame) {
   return found == sequence.end() ? nullptr : *found;
 }
 
-// The cell of smallest error in a frame; null if none has one.
+// The cell of smallest error in a frame, of several the cheapest; null if none has one.
 const CellResult* bestAt(const Section& section, int frame) {
   const CellResult* best = nullptr;
-  std::optional<double> smallest;
+  const auto rank = [&](const CellResult& cell) {
+    return std::pair(*errorOf(cell, section.region, kMainMetric), costRank(cell));
+  };
   for (const Sequence& sequence : section.sequences) {
     const CellResult* cell = cellAt(sequence, frame);
-    const std::optional<double> error = cell ? errorOf(*cell, section.region, kMainMetric) : std::nullopt;
-    if (!error || (smallest && *error >= *smallest)) continue;
-    best = cell;
-    smallest = error;
+    if (!cell || !errorOf(*cell, section.region, kMainMetric)) continue;
+    if (!best || rank(*cell) < rank(*best)) best = cell;
   }
   return best;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "bench/over_time.h"
 
@@ -79,7 +80,7 @@ std::string countText(double mean) {
 const Sequence& bestOf(const Section& section) {
   return *std::ranges::min_element(section.sequences, {}, [&](const Sequence& sequence) {
     const double error = meanError(sequence, section.region, kMainMetric);
-    return std::pair{std::isnan(error), error};
+    return std::tuple{std::isnan(error), error, costRank(*sequence.front())};
   });
 }
 

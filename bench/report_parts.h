@@ -39,7 +39,7 @@ std::string intervalText(double low, double high);
 // A mean over the frames: a whole number where every frame does the same.
 std::string countText(double mean);
 
-// The technique of smallest error by the main metric, in the region of the section.
+// The technique of smallest error by the main metric, in the region of the section; of several the cheapest.
 const Sequence& bestOf(const Section& section);
 // ", axis=value" of the axes that vary.
 std::string axesText(const Section& section, const Sequence& sequence);

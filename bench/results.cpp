@@ -52,6 +52,12 @@ std::optional<double> metricValue(const Metrics& metrics, const std::string& key
   return found->value(metrics);
 }
 
+bool isLowerBetter(const std::string& key) {
+  const auto& table = metricTable();
+  const auto found = std::ranges::find(table, key, &MetricInfo::key);
+  return found == table.end() || found->lowerIsBetter;
+}
+
 std::string CellResult::sequenceKey() const {
   return fmt::format("scene={} camera={}{}", scene, camera, axesText(*this));
 }

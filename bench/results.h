@@ -23,6 +23,8 @@ namespace pb {
 // The value of a metric by its key in metricTable(); nullopt where it is undefined. Throws an input Error for any other
 // key.
 std::optional<double> metricValue(const Metrics& metrics, const std::string& key);
+// True of what is no metric.
+bool isLowerBetter(const std::string& key);
 
 inline constexpr int kResultsSchemaVersion = 1;
 
@@ -57,6 +59,9 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 using MetricIntervals = std::vector<std::pair<std::string, Interval>>;
+
+// Of some metrics, against the mean of a reference's batches without each of them, in their order: bench/jackknife.h.
+using MetricReplicates = std::vector<std::pair<std::string, std::vector<double>>>;
 
 // A cell against the truth that has as many bounces as the technique: what is left is not for want of bounces.
 struct MatchedErrors {
@@ -130,8 +135,11 @@ struct CellResult {
   std::optional<Metrics> maskMetrics;  // over the pixels of reflective and refractive objects, if there are any
   // What the reference's own noise adds to "mse" and "relmse" (and to other metrics whose floor is known).
   MetricValues floor, maskFloor;
-  MetricValues unbiased;                     // "mse": mean((I-A)(I-B)), whole image
-  MetricIntervals intervals, maskIntervals;  // 95 %, of some metrics, from the reference's noise
+  MetricValues unbiased;                        // "mse": mean((I-A)(I-B)), whole image
+  MetricIntervals intervals, maskIntervals;     // 95 %, of some metrics, from the reference's noise
+  MetricReplicates replicates, maskReplicates;  // what these come from; none where the reference has no noise
+  // Of the batches behind the replicates: cells that have it in common have their noise in common.
+  std::string referenceHash;
   std::optional<MatchedErrors> matched;      // absent where the technique's number of bounces is not known
   std::optional<CostResult> cost;            // of the technique on this scene; the same for all its frames
   std::optional<ReportedCost> reportedCost;  // of external techniques only, which have no `cost`

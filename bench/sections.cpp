@@ -131,6 +131,10 @@ double largestFaceAge(const Sequence& sequence) {
   return largest;
 }
 
+double costRank(const CellResult& cell) {
+  return cell.cost ? cell.cost->ratio : std::numeric_limits<double>::infinity();
+}
+
 bool isClearOfFloor(const Sequence& sequence, Region region) {
   return std::ranges::all_of(sequence, [&](const CellResult* cell) { return isClearOfFloor(*cell, region); });
 }

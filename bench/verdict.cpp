@@ -20,11 +20,17 @@ bool hasInterval(const CellResult& cell, const std::string& metric) {
 
 }  // namespace
 
+Verdict verdictOf(const Difference& difference, bool anyIsClear) {
+  const Estimate& loss = difference.loss;
+  if (loss.low == 0 && loss.high == 0) return Verdict::equal;
+  if (!anyIsClear && !difference.isPaired) return Verdict::belowFloor;
+  if (loss.isNegative()) return Verdict::better;
+  if (loss.isPositive()) return Verdict::worse;
+  return anyIsClear ? Verdict::equal : Verdict::belowFloor;
+}
+
 Verdict verdictOf(const Estimate& a, const Estimate& b, bool aIsClear, bool bIsClear) {
-  if (!aIsClear && !bIsClear) return Verdict::belowFloor;
-  if (a.isBelow(b)) return Verdict::better;
-  if (b.isBelow(a)) return Verdict::worse;
-  return Verdict::equal;
+  return verdictOf(Difference{unpairedDifference(a, b)}, aIsClear || bIsClear);
 }
 
 std::string printVerdict(Verdict verdict) {
@@ -44,28 +50,25 @@ std::string printVerdict(Verdict verdict) {
 std::optional<Verdict> verdictOf(const CellResult& a, const CellResult& b, const std::string& metric, Region region) {
   Selection selection;
   selection.metric = metric;
-  const std::optional<Estimate> lossA = lossOf(a, selection, region), lossB = lossOf(b, selection, region);
-  if (!lossA || !lossB) return std::nullopt;
-  return verdictOf(*lossA, *lossB, isClear(a, region), isClear(b, region));
+  const std::optional<Difference> difference = differenceOf(a, b, selection, region);
+  if (!difference) return std::nullopt;
+  return verdictOf(*difference, isClear(a, region) || isClear(b, region));
 }
 
 RankingState rankingState(const std::vector<CellResult>& cells, const std::string& metric) {
   std::map<std::tuple<std::string, std::string, int>, std::vector<const CellResult*>> groups;
   for (const CellResult& cell : cells)
     if (hasInterval(cell, metric)) groups[{cell.scene, cell.camera, cell.frame}].push_back(&cell);
-  Selection selection;
-  selection.metric = metric;
   RankingState state;
   for (const auto& [where, group] : groups)
     for (std::size_t i = 0; i < group.size(); ++i)
       for (std::size_t j = i + 1; j < group.size(); ++j) {
         const CellResult &a = *group[i], &b = *group[j];
-        const std::optional<Estimate> lossA = lossOf(a, selection, regionOf(a)),
-                                      lossB = lossOf(b, selection, regionOf(b));
-        if (!lossA || !lossB || lossA->value == lossB->value) continue;
+        const Region region = regionOf(a);
+        const std::optional<Verdict> verdict = verdictOf(a, b, metric, region);
+        if (!verdict || errorOf(a, region, metric) == errorOf(b, region, metric)) continue;
         ++state.pairs;
-        const Verdict verdict = verdictOf(*lossA, *lossB, isClear(a, regionOf(a)), isClear(b, regionOf(b)));
-        if (verdict == Verdict::equal || verdict == Verdict::belowFloor) ++state.undecided;
+        if (*verdict == Verdict::equal || *verdict == Verdict::belowFloor) ++state.undecided;
       }
   return state;
 }

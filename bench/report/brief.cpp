@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "bench/sections.h"
 #include "bench/tables.h"
@@ -28,12 +29,12 @@ std::string numbersText(const Section& section, const Sequence& sequence) {
   return cost ? fmt::format("{} at {} x plain", error, formatSignificant(cost->ratio)) : error;
 }
 
-// The sequence with the smallest value; those without one come last.
+// The sequence with the smallest value, of several the cheapest; those without one come last.
 template <class Value>
 const Sequence& smallest(const Section& section, Value value) {
   return *std::ranges::min_element(section.sequences, {}, [&](const Sequence& sequence) {
     const double v = value(sequence);
-    return std::pair{std::isnan(v), v};
+    return std::tuple{std::isnan(v), v, costRank(*sequence.front())};
   });
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "bench/differences.h"
 #include "bench/report_verdict.h"
 #include "bench/sections.h"
 #include "bench/tables.h"
@@ -89,6 +90,17 @@ Change changeOf(std::optional<Verdict> verdict) {
 
 Estimate estimateOf(const Measured& cost) { return {cost.value, cost.interval->low, cost.interval->high}; }
 
+// Where both are scored against the same reference.
+std::optional<Interval> pairedInterval(const CellResult& before, const CellResult& after, const std::string& metric,
+                                       Region region) {
+  Selection selection;
+  selection.metric = metric;
+  const std::optional<Difference> difference = differenceOf(after, before, selection, region);
+  if (!difference || !difference->isPaired) return std::nullopt;
+  const double low = metricOfLoss(metric, difference->loss.low), high = metricOfLoss(metric, difference->loss.high);
+  return Interval{std::min(low, high), std::max(low, high)};
+}
+
 std::vector<ComparedValue> compareCells(const CellResult& before, const CellResult& after, bool withCosts) {
   std::vector<ComparedValue> values;
   const Region region = regionOf(before, after);
@@ -102,6 +114,7 @@ std::vector<ComparedValue> compareCells(const CellResult& before, const CellResu
     const Change change = changeOf(quantity.costOf ? verdictOf(estimateOf(*b), estimateOf(*a))
                                                    : knownVerdict(after, before, quantity.name, region));
     values.push_back({quantity.name, a->value, b->value, a->interval, b->interval, change});
+    if (!quantity.costOf) values.back().differenceInterval = pairedInterval(before, after, quantity.name, region);
   }
   return values;
 }
@@ -143,8 +156,13 @@ double sizeOf(const ComparedValue& value) {
   return std::isnan(size) ? std::abs(value.difference()) : size;
 }
 
-std::string signedText(double difference) {
-  return fmt::format("{}{}", difference > 0 ? "+" : "", formatSignificant(difference));
+// "+0.002", with its interval where it is paired "+0.002 +- 0.001".
+std::string differenceText(const ComparedValue& value) {
+  const double difference = value.difference();
+  std::string text = fmt::format("{}{}", difference > 0 ? "+" : "", formatSignificant(difference));
+  if (const std::optional<Interval>& interval = value.differenceInterval)
+    text += " +- " + formatSignificant(Estimate{difference, interval->low, interval->high}.plusMinus(), 1);
+  return text;
 }
 
 std::string percentText(const ComparedValue& value) {
@@ -194,7 +212,7 @@ Table changeTable(const Comparison& comparison, const Results& after, const Axis
   for (const Row& row : rows)
     table.rows.push_back({shortKey(after.cells[row.cell->after].key(), defaults), row.value->name,
                           formatSignificant(row.value->before), formatSignificant(row.value->after),
-                          signedText(row.value->difference()), percentText(*row.value), nameOf(row.value->change)});
+                          differenceText(*row.value), percentText(*row.value), nameOf(row.value->change)});
   return table;
 }
 
@@ -262,10 +280,10 @@ std::string makeComparisonReport(const Results& before, const Results& after, co
   if (!comparison.cells.empty()) {
     text += toMarkdown(countTable(comparison)) + '\n';
     text +=
-        "Errors are those of the mask, where a scene has one. `equal`: the same, or 95 % intervals overlap; `below the "
-        "floor`: neither is clear of the reference's own noise; `changed`: not the same, and no interval is known. "
-        "Costs "
-        "are counted once a technique and scene, errors once a frame.\n\n";
+        "Errors are those of the mask, where a scene has one. `equal`: the same, or the difference is within its 95 % "
+        "interval (paired where both runs have the same reference, else by overlap of the two intervals); `below the "
+        "floor`: so, and neither is clear of the reference's own noise; `changed`: not the same, and no interval is "
+        "known. Costs are counted once a technique and scene, errors once a frame.\n\n";
     const Table changes = changeTable(comparison, after, defaults);
     if (!changes.rows.empty()) text += "What changed most:\n\n" + toMarkdown(changes) + '\n';
   }
@@ -295,6 +313,7 @@ Json toJson(const Comparison& comparison) {
                             {"after", encodeNumber(value.after)},
                             {"beforeInterval", intervalToJson(value.beforeInterval)},
                             {"afterInterval", intervalToJson(value.afterInterval)},
+                            {"differenceInterval", intervalToJson(value.differenceInterval)},
                             {"change", nameOf(value.change)}};
     json["cells"].push_back({{"before", cell.before}, {"after", cell.after}, {"values", values}});
   }

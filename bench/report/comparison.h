@@ -10,8 +10,9 @@
 
 namespace pb {
 
-// Of errors as bench/verdict.h has it, of costs by their intervals. equal: the same, or the 95 % intervals overlap;
-// belowFloor: differs, but neither error is clear of the reference's noise; changed: differs, and no interval is known.
+// Of errors as bench/verdict.h has it, of costs by their intervals. equal: the same, or the difference is within its
+// 95 % interval; belowFloor: so, and neither error is clear of the reference's noise; changed: differs, and no interval
+// is known.
 enum class Change { better, worse, equal, belowFloor, changed };
 
 struct ComparedValue {
@@ -19,6 +20,7 @@ struct ComparedValue {
   double before = 0, after = 0;
   std::optional<Interval> beforeInterval, afterInterval;
   Change change = Change::equal;
+  std::optional<Interval> differenceInterval{};  // where both are scored against the same reference
 
   double difference() const { return after - before; }
 };

@@ -10,6 +10,7 @@
 #include "bench/json_document.h"
 #include "bench/metric_audit.h"
 #include "bench/report/comparison.h"
+#include "bench/report/orders.h"
 #include "bench/report/packed_picture.h"
 #include "bench/report/page_pictures.h"
 #include "bench/report/page_source.h"
@@ -146,6 +147,12 @@ Json disputesToJson(const std::vector<CellResult>& cells) {
   return json;
 }
 
+// The page has what follows from them.
+Results withoutReplicates(Results results) {
+  for (CellResult& cell : results.cells) cell.replicates = cell.maskReplicates = {};
+  return results;
+}
+
 std::string replaced(std::string text, const std::string& mark, const std::string& with) {
   const std::size_t at = text.find(mark);
   if (at == std::string::npos) throw std::logic_error("the page's template lacks " + mark);
@@ -162,7 +169,7 @@ std::vector<std::string> writePage(const std::vector<PageRun>& runs, const std::
   std::vector<std::string> results;
   for (const PageRun& run : runs) {
     pictures.push_back(packPictures(run.results.cells, run.directory));
-    results.push_back(base64(deflate(toJson(run.results))));
+    results.push_back(base64(deflate(toJson(withoutReplicates(run.results)))));
   }
   const bool beside = static_cast<double>(pageBytes(results, pictures)) > 1e6 * maxMb;
 
@@ -179,6 +186,7 @@ std::vector<std::string> writePage(const std::vector<PageRun>& runs, const std::
   }
   if (runs.size() == 2) meta["comparison"] = toJson(compareRuns(runs[0].results, runs[1].results));
 
+  meta["orders"] = ordersToJson(runs.back().results.cells);
   meta["disputes"] = disputesToJson(runs.back().results.cells);
 
   const std::string& suite = runs.back().results.provenance.suiteName;
