@@ -93,7 +93,7 @@ export function comparisonSection(comparison, model) {
   };
   if (known.length) fill(known[0][0]);
   const {onlyBefore, onlyAfter} = comparison;
-  const note = "equal: the same, or the 95 % intervals overlap; below the floor: neither is clear of the reference's own noise; changed: not the same, and no interval is known. Costs stand with the first frame of a technique.";
+  const note = "equal: the same, or the difference is within its 95 % interval (paired where both runs have the same reference); below the floor: so, and neither is clear of the reference's own noise; changed: not the same, and no interval is known. Costs stand with the first frame of a technique.";
   return section(
     "comparison",
     "Before and after",

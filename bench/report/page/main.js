@@ -25,6 +25,7 @@ class Page {
   constructor(meta, runs) {
     this.meta = meta;
     this.model = runs.at(-1).model;
+    for (const view of this.model.views) view.orders = meta.orders;
     this.pictures = runs.at(-1).pictures;
     this.before = runs.length > 1 ? runs[0] : null;
     this.earlierIndex = new Map(meta.comparison?.cells.map(({before, after}) => [after, before]));
