@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/files.h"
-#include "tests/cli/program.h"
+#include "tests/cli/workplace.h"
 
 namespace pb {
 namespace {
@@ -47,36 +47,32 @@ TEST(Init, LeavesAnExistingFileAsItIs) {
 }
 
 TEST(Recommend, AnswersFromARunAndNamesTheCommandThatRepeatsIt) {
-  const TemporaryFolder folder;
-  const std::string suite = folder.file("suite.toml"), out = folder.file("out"), store = folder.file("store");
-  writeFileAtomically(suite, kSmall);
-  const ProgramResult run = runProgram({"run", suite, "--out", out, "--store", store});
+  const Workplace workplace(kSmall);
+  const std::string out = workplace.path("out");
+  const ProgramResult run = workplace.run("out");
   ASSERT_EQ(run.exitCode, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("\n2 techniques on 1 scene; error: flip_hdr"));
   EXPECT_THAT(run.out, testing::EndsWith("\n\nreport: " + out + "/report.html\n"));  // the answer comes last
   const ProgramResult answer = runProgram({"recommend", out, "--max-error", "flip_hdr=1"});
   EXPECT_EQ(answer.exitCode, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("Cheapest: resolution="));
-  EXPECT_THAT(answer.out, HasSubstr("probebench run " + suite + " --only ' resolution="));
+  EXPECT_THAT(answer.out, HasSubstr("probebench run " + workplace.suitePath() + " --only ' resolution="));
   EXPECT_EQ(runProgram({"recommend", out, "--max-error", "flip_hdr=0"}).exitCode, 1);
   EXPECT_EQ(runProgram({"recommend", out}).exitCode, 2);
   EXPECT_EQ(runProgram({"recommend", out, "--max-error", "flip=1"}).exitCode, 2);
   for (const char* budget : {"nan", "inf", "-5", "0", "5x"})
     EXPECT_THAT(runProgram({"recommend", out, "--budget-ms", budget}).err,
                 HasSubstr(fmt::format("wants a number above 0, got '{}'", budget)));
-  EXPECT_EQ(runProgram({"recommend", folder.file("nothing"), "--budget-ms", "1"}).exitCode, 2);
+  EXPECT_EQ(runProgram({"recommend", workplace.path("nothing"), "--budget-ms", "1"}).exitCode, 2);
   // The rates of that run tell how long the next one takes.
-  const ProgramResult plan = runProgram({"run", suite, "--dry-run", "--store", store});
+  const ProgramResult plan = workplace.run("out", {"--dry-run"});
   EXPECT_THAT(plan.out, HasSubstr("should take about"));
   EXPECT_THAT(plan.out, Not(HasSubstr("no rates")));
 }
 
 TEST(UntilDecided, WithoutNoise_IsDecidedAtOnce) {
-  const TemporaryFolder folder;
-  const std::string suite = folder.file("suite.toml");
-  writeFileAtomically(suite, kSmall);
-  const ProgramResult run = runProgram({"run", suite, "--out", folder.file("out"), "--store", folder.file("store"),
-                                        "--no-cost", "--until-decided", "--budget-s", "1"});
+  const Workplace workplace(kSmall);
+  const ProgramResult run = workplace.run("out", {"--no-cost", "--until-decided", "--budget-s", "1"});
   EXPECT_EQ(run.exitCode, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("all 1 pairs of cells are decided"));
 }

@@ -15,7 +15,7 @@
 #include "bench/results.h"
 #include "scenes/files.h"
 #include "scenes/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/workplace.h"
 
 namespace pb {
 namespace {
@@ -38,30 +38,16 @@ refresh = ["every-frame", "static"]
 mse = { relative = 0.01 }
 )";
 
-// A folder with a suite file and a reference store of its own.
-class Workplace {
+class SmallSuite : public Workplace {
  public:
-  explicit Workplace(const std::string& suite = kSmall) { writeFileAtomically(folder_.file("suite.toml"), suite); }
+  explicit SmallSuite(const std::string& suite = kSmall) : Workplace(suite) {}
 
-  std::string path(const std::string& name) const { return folder_.file(name); }
-  std::vector<std::string> command(const std::string& out, std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments = {"run", path("suite.toml"), "--out", path(out)};
-    if (std::ranges::find(more, "--store") == more.end()) arguments.insert(arguments.end(), {"--store", path("store")});
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  }
-  ProgramResult run(const std::string& out, std::vector<std::string> more = {}) const {
-    return runProgram(command(out, std::move(more)));
-  }
   // The cells as they stand in results.json; equal texts mean equal bits.
   std::vector<std::string> cells(const std::string& out) const {
     std::vector<std::string> lines;
     for (const CellResult& cell : readResults(path(out)).cells) lines.push_back(toJson(cell));
     return lines;
   }
-
- private:
-  TemporaryFolder folder_;
 };
 
 std::ptrdiff_t lineCount(const std::string& path) {
@@ -69,7 +55,7 @@ std::ptrdiff_t lineCount(const std::string& path) {
 }
 
 TEST(Run, OfASmallSuite_WritesResultsTablesAndImages) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   const ProgramResult result = workplace.run("run");
   ASSERT_EQ(result.exitCode, 0) << result.err;
   // Results on standard output, progress on standard error.
@@ -107,21 +93,21 @@ TEST(Run, OfASmallSuite_WritesResultsTablesAndImages) {
 }
 
 TEST(Run, WithAnyNumberOfThreads_HasTheSameBits) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("one", {"--threads", "1", "--store", workplace.path("store-one")}).exitCode, 0);
   ASSERT_EQ(workplace.run("three", {"--threads", "3", "--store", workplace.path("store-three")}).exitCode, 0);
   EXPECT_EQ(workplace.cells("one"), workplace.cells("three"));
 }
 
 TEST(Run, FromStoredReferences_HasTheSameBits) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("first").exitCode, 0);
   ASSERT_EQ(workplace.run("second").exitCode, 0);
   EXPECT_EQ(workplace.cells("first"), workplace.cells("second"));
 }
 
 TEST(Run, WithADamagedStore_WarnsAndRendersAnew) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("first").exitCode, 0);
   for (const fs::directory_entry& entry : fs::directory_iterator(workplace.path("store")))
     if (entry.path().extension() == ".exr") fs::resize_file(entry.path(), 100);
@@ -132,7 +118,7 @@ TEST(Run, WithADamagedStore_WarnsAndRendersAnew) {
 }
 
 TEST(Run, WithOtherScenesAndAxes_ReplacesTheSuites) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   const ProgramResult result =
       workplace.run("run", {"--scene", "builtin:mirrors?count=1", "--scene", "builtin:mirrors?count=3", "--set",
                             "resolution=8", "--set", "refresh=static", "--only", "frame=2"});
@@ -145,7 +131,7 @@ TEST(Run, WithOtherScenesAndAxes_ReplacesTheSuites) {
 }
 
 TEST(Run, SameSuiteAgain_OverwritesItsOwnFolderOnly) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("run").exitCode, 0);
   EXPECT_EQ(workplace.run("run", {"--set", "resolution=8"}).exitCode, 0);
   EXPECT_EQ(workplace.cells("run").size(), 4u);
@@ -158,7 +144,7 @@ TEST(Run, SameSuiteAgain_OverwritesItsOwnFolderOnly) {
 }
 
 TEST(Run, Interrupted_KeepsFinishedCellsAndGoesOnWithResume) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   const std::vector<std::string> grid = {"--set", "resolution=8,16,32,64", "--set", "bounces=1,2,3"};
   constexpr std::ptrdiff_t kCells = 48;  // enough that the interrupt comes long before the last one
   ASSERT_EQ(workplace.run("whole", grid).exitCode, 0);
@@ -201,7 +187,7 @@ TEST(Run, WithANoisyReference_IsInconclusiveAlsoWhenResumed) {
   std::string suite = kSmall;
   suite.replace(suite.find("builtin:mirrors?count=2"), 23, "glass.gltf");
   suite.insert(suite.find("cost ="), "reference = { spp = 600, max_noise = 1e-12 }\n");
-  const Workplace workplace(suite);
+  const SmallSuite workplace(suite);
   writeFileAtomically(workplace.path("glass.gltf"), kGlassTriangle);
   const ProgramResult first = workplace.run("run");
   EXPECT_EQ(first.exitCode, 4) << first.err;
@@ -224,7 +210,7 @@ TEST(Run, WithANoisyReference_IsInconclusiveAlsoWhenResumed) {
 }
 
 TEST(Run, ThatCantStart_KeepsTheEarlierRun) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("run").exitCode, 0);
   const char* variables[] = {"HOME", "XDG_CACHE_HOME"};
   std::map<const char*, std::string> before;
@@ -239,7 +225,7 @@ TEST(Run, ThatCantStart_KeepsTheEarlierRun) {
 }
 
 TEST(Run, OfTechniquesThatASceneRefuses_EndsBeforeTheControl) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   // 64 cubes of 6 * 4096^2 texels of 8 bytes: 48 GiB. `metals` has rough spheres.
   for (const auto& [scene, setting, message] :
        {std::array{"builtin:mirrors?count=64", "resolution=4096", "the device allows"},
@@ -252,7 +238,7 @@ TEST(Run, OfTechniquesThatASceneRefuses_EndsBeforeTheControl) {
 }
 
 TEST(Run, ResumedWithOtherSettings_IsRefused) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("run").exitCode, 0);
   const ProgramResult result = workplace.run("run", {"--resume", "--set", "resolution=8"});
   EXPECT_EQ(result.exitCode, 2);
@@ -260,7 +246,7 @@ TEST(Run, ResumedWithOtherSettings_IsRefused) {
 }
 
 TEST(Run, ShardsMerged_AreTheWhole) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("whole").exitCode, 0);
   ASSERT_EQ(workplace.run("a", {"--shard", "1/3"}).exitCode, 0);
   ASSERT_EQ(workplace.run("b", {"--shard", "2/3"}).exitCode, 0);
@@ -309,7 +295,7 @@ TEST(Run, ShardsMerged_AreTheWhole) {
 }
 
 TEST(Gate, PassesTheBlessedRunAndFailsAnotherOne) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("run").exitCode, 0);
   const std::string baseline = workplace.path("baseline.json");
   const ProgramResult blessed =
@@ -329,7 +315,7 @@ TEST(Gate, PassesTheBlessedRunAndFailsAnotherOne) {
 
 // As a program wrote it that didn't know these axes and counted no coats.
 TEST(Gate, ReadsResultsFromBeforeAnAxisWasAdded) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ASSERT_EQ(workplace.run("run").exitCode, 0);
   auto document = nlohmann::ordered_json::parse(readFile(workplace.path("run/results.json")));
   for (auto& cell : document["cells"]) {
@@ -360,7 +346,7 @@ TEST(Gate, ReadsResultsFromBeforeAnAxisWasAdded) {
 TEST(Run, WithCost_MeasuresWhatTheModelCounts) {
   std::string suite = kSmall;
   suite.replace(suite.find("repetitions = 0"), 15, "repetitions = 3");
-  const Workplace workplace(suite);
+  const SmallSuite workplace(suite);
   const ProgramResult result = workplace.run("run", {"--set", "refresh=every-frame,faces?k=1,static", "--set",
                                                      "bounces=1,2", "--only", "frame=0 .*resolution=8"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
@@ -388,7 +374,7 @@ TEST(Run, WithCost_MeasuresWhatTheModelCounts) {
 }
 
 TEST(Run, OnAFullDisk_EndsWithOneSentenceAndNothingHalfWritten) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   // Small enough for no image, large enough for the marker and messages.
   ProgramOptions full;
   full.maxFileBytes = 1024;
@@ -406,7 +392,7 @@ TEST(Run, OnAFullDisk_EndsWithOneSentenceAndNothingHalfWritten) {
 
 // /proc refuses new folders even to root.
 TEST(Run, IntoAFolderThatCantBeMade_IsAnEnvironmentError) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   ProgramResult result = runProgram({"run", workplace.path("suite.toml"), "--out", "/proc/run"});
   EXPECT_EQ(result.exitCode, 3);
   EXPECT_THAT(result.err, HasSubstr("output folder '/proc/run' can't be made"));
@@ -417,7 +403,7 @@ TEST(Run, IntoAFolderThatCantBeMade_IsAnEnvironmentError) {
 }
 
 TEST(Render, OfBothRenderers_WritesPicturesThatAgreeOutsideOfMirrors) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   for (const char* renderer : {"raster", "reference"}) {
     const ProgramResult result = runProgram({"render", "builtin:mirrors", "--with", renderer, "-o",
                                              workplace.path(std::string(renderer) + ".exr"), "--size", "64x36", "--aov",
@@ -436,7 +422,7 @@ TEST(Render, OfBothRenderers_WritesPicturesThatAgreeOutsideOfMirrors) {
 
 // A preset sets every axis: what is set beside it counts, wherever it stands.
 TEST(Render, SettingsBesideAPreset_CountInAnyOrder) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   const auto render = [&](const std::string& name, const std::vector<std::string>& settings) {
     std::vector<std::string> arguments = {"render", "builtin:mirrors",    "--with", "raster",
                                           "-o",     workplace.path(name), "--size", "32x18"};
@@ -458,7 +444,7 @@ TEST(Render, IntoAFolderThatIsNotThere_IsAnEnvironmentError) {
 }
 
 TEST(Render, Exposure_ScalesByStops) {
-  const Workplace workplace;
+  const SmallSuite workplace;
   for (const char* stops : {"0", "1"}) {
     const ProgramResult result = runProgram({"render", "builtin:mirrors", "--with", "reference", "--size", "16x16",
                                              "--exposure", stops, "-o", workplace.path(std::string(stops) + ".exr")});
