@@ -56,7 +56,8 @@ void FrameConstants::uploadProbes(const Snapshot& snapshot) {
 }
 
 void FrameConstants::bindLights() const {
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLightBlock, lights_.id());
+  if (lightCount_ > 0) gl_.BindBufferBase(GL_UNIFORM_BUFFER, gpu::kLightBlock, lights_.id());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kManyLightsBlock, lights_.id());
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kAreaLightBlock, areaLights_.id());
 }
 

@@ -17,8 +17,7 @@ gpu::PassConstants passConstants(const Snapshot& snapshot, const shading::View& 
                                  float largestRadiance) {
   return {.view = withResolution(view, width),
           .image = {static_cast<float>(width), static_cast<float>(height), largestRadiance, 0.0f},
-          .lights = {static_cast<float>(snapshot.lights.size()), static_cast<float>(snapshot.areaLights.size()), 0.0f,
-                     0.0f},
+          .lights = {static_cast<float>(snapshot.areaLights.size()), 0.0f, 0.0f, 0.0f},
           .clip = glm::vec4(0.0f)};
 }
 

@@ -1,6 +1,7 @@
 #include "raster/programs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 
@@ -36,6 +37,18 @@ std::string glslOf(const SamplerSettings& s) {
   return fmt::format("vec4({:.1f}, {:.1f}, {:.1f}, {:.1f})", s.wrapU, s.wrapV, s.magFilter, s.minFilter);
 }
 
+// Nine digits: all of a float.
+std::string glslOf(const glm::vec4& v) {
+  return fmt::format("vec4({:#.9g}f, {:#.9g}f, {:#.9g}f, {:#.9g}f)", v.x, v.y, v.z, v.w);
+}
+
+// A constructor of a struct of vec4.
+std::string glslOf(const std::string& name, std::initializer_list<glm::vec4> members) {
+  std::vector<std::string> values;
+  for (const glm::vec4& member : members) values.push_back(glslOf(member));
+  return fmt::format("{}({})", name, fmt::join(values, ", "));
+}
+
 std::string coverageDefine(float coverage) {
   if (coverage == shading::kAlphaMask) return define("ALPHA_MASK");
   return coverage == shading::kAlphaBlend ? define("ALPHA_BLEND") : "";
@@ -51,6 +64,7 @@ std::string definesOf(const SurfaceVariant& variant) {
   defines += lobeDefines(variant.lobe);
   if (!variant.reflects) defines += define("NO_REFLECTION");
   if (variant.attributes) defines += define("ATTRIBUTES");
+  if (variant.emits) defines += define("EMITS");
   if (variant.filter == TextureFilter::hardware) defines += define("TEXTURES_HARDWARE");
   for (std::size_t i = 0; i < kTextureDefines.size(); ++i)
     if (variant.textures[i]) defines += define(kTextureDefines[i], glslOf(*variant.textures[i]));
@@ -84,10 +98,15 @@ EnvironmentSource environmentSource(const Environment& environment, TextureFilte
   return filter == TextureFilter::hardware ? EnvironmentSource::facesHardware : EnvironmentSource::faces;
 }
 
+std::string environmentConstants(const Environment& environment) {
+  const shading::Sky& sky = environment.sky;
+  const shading::Ambient& a = environment.ambient;
+  return define("SKY", glslOf("Sky", {sky.horizon, sky.zenith, sky.below, sky.glow, sky.toGlow})) +
+         define("AMBIENT", glslOf("Ambient", {a.constant, a.y, a.z, a.x, a.xy, a.yz, a.zz, a.xz, a.xxyy}));
+}
+
 std::string techniqueDefines(const Technique& technique) {
-  const glm::vec4 law = fresnelLaw(technique.fresnel);
-  return define("FRESNEL_LAW",
-                fmt::format("vec4({:#.9g}f, {:#.9g}f, {:#.9g}f, {:#.9g}f)", law.x, law.y, law.z, law.w)) +
+  return define("FRESNEL_LAW", glslOf(fresnelLaw(technique.fresnel))) +
          define("GEOMETRY_TERM", fmt::format("{:.1f}", static_cast<double>(technique.geometryTerm)));
 }
 
@@ -123,8 +142,9 @@ GLuint Programs::repeatLookups(LookupRecord record, const std::string& technique
   return findCompute(shaders::kRepeatLookupsComp, "repeat_lookups", techniqueDefines + definesOf(record));
 }
 
-GLuint Programs::background(EnvironmentSource source) {
-  return find(shaders::kBackgroundVert, shaders::kBackgroundFrag, "background", definesOf(source));
+GLuint Programs::background(EnvironmentSource source, const std::string& environmentConstants) {
+  return find(shaders::kBackgroundVert, shaders::kBackgroundFrag, "background",
+              definesOf(source) + environmentConstants);
 }
 
 GLuint Programs::boxLevel(bool weighsSolidAngles, const std::string& formatDefines) {

@@ -39,6 +39,7 @@ struct SurfaceVariant {
   Lobe lobe = Lobe::smooth;
   bool reflects = true;  // its specular lobe looks something up
   std::array<std::optional<SamplerSettings>, kMaterialTextures> textures;
+  bool emits = false;
   bool attributes = false;  // vertices carry more than position and normal
   TextureFilter filter = TextureFilter::exact;
   float coverage = shading::kAlphaOpaque;  // shading::kAlpha*
@@ -48,6 +49,10 @@ struct SurfaceVariant {
 
 // What is kept of a lookup (raster/shaders/lookup_records.glsl): of mirrors that are everywhere the same, less.
 enum class LookupRecord { mirror, general };
+
+// The environment's gradient and ambient light as constants of the shader: llvmpipe 22 branches for each number that it
+// reads of a uniform block.
+std::string environmentConstants(const Environment& environment);
 
 // What the technique sets for the shading of all surfaces.
 std::string techniqueDefines(const Technique& technique);
@@ -70,7 +75,7 @@ class Programs {
   // Of lists of lookups (raster/lookup_records.h).
   GLuint collectLookups(LookupRecord record);
   GLuint repeatLookups(LookupRecord record, const std::string& techniqueDefines);
-  GLuint background(EnvironmentSource source);
+  GLuint background(EnvironmentSource source, const std::string& environmentConstants);
   // Filters of cube maps (raster/prefilter.h).
   GLuint boxLevel(bool weighsSolidAngles, const std::string& formatDefines);
   GLuint ggxLevel(int samples, const std::string& formatDefines);

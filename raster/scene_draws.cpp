@@ -1,5 +1,8 @@
 #include "raster/scene_draws.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <glm/vec3.hpp>
@@ -51,8 +54,25 @@ std::string conductorDefines(const Material& material) {
 
 std::string shadowDefines(const Snapshot& snapshot) { return castsShadows(snapshot) ? "#define SHADOWS\n" : ""; }
 
+std::vector<float> kindsOf(const std::vector<shading::Light>& lights) {
+  std::vector<float> kinds;
+  for (const shading::Light& light : lights) kinds.push_back(light.positionKind.w);
+  return kinds;
+}
+
+// Lights of known number and kind: llvmpipe 22 gathers what is read at an index that it doesn't know, lane by lane.
+// More than fit into the smallest uniform block that OpenGL 4.5 promises (16 KiB) are read from a storage block.
+std::string punctualLightDefines(const std::vector<float>& kinds) {
+  constexpr std::size_t kMaxKnown = 16384 / sizeof(shading::Light);
+  if (kinds.empty()) return "";
+  const std::string count = fmt::format("#define LIGHT_COUNT {}\n", kinds.size());
+  if (kinds.size() > kMaxKnown) return count;
+  return count + fmt::format("#define LIGHT_KINDS float[]({:.1f})\n", fmt::join(kinds, ", "));
+}
+
 std::string lightDefines(const Snapshot& snapshot, bool showsLights) {
-  return showsLights ? shadowDefines(snapshot) + areaLightDefines(snapshot) : "#define NO_LIGHTS\n";
+  if (!showsLights) return "#define NO_LIGHTS\n";
+  return punctualLightDefines(kindsOf(snapshot.lights)) + shadowDefines(snapshot) + areaLightDefines(snapshot);
 }
 
 // How lookups read the maps of probes.
@@ -104,12 +124,13 @@ class SurfacePrograms {
         technique_(technique),
         snapshot_(snapshot),
         source_(environmentSource(snapshot.environment(), technique.textureFilter)),
-        settings_(techniqueDefines(technique) + clipDefines(technique)),
+        environment_(environmentConstants(snapshot.environment())),
+        settings_(techniqueDefines(technique) + clipDefines(technique) + environment_),
         environmentLevels_(filterDefines(technique.filter, environmentSize)),
         mapLookup_(lookupDefines(technique.lookup) + mapDefines(technique, snapshot)),
         lookupCode_(lookupOf(technique.lookup).glsl) {}
 
-  EnvironmentSource source() const { return source_; }
+  GLuint background() { return programs_.background(source_, environment_); }
 
   // Sets the programs of a draw whose other members are set.
   void find(SurfaceDraw& draw) {
@@ -159,6 +180,7 @@ class SurfacePrograms {
   const Technique& technique_;
   const Snapshot& snapshot_;
   const EnvironmentSource source_;
+  const std::string environment_;
   const std::string settings_;
   const std::string environmentLevels_;
   const std::string mapLookup_;
@@ -193,6 +215,7 @@ bool SceneDraws::haveBackFaces() const {
 // A deforming instance keeps its draw whatever its shape: topology is the same.
 bool SceneDraws::fit(const Snapshot& snapshot, const std::vector<int>& probeResolutions) const {
   if (environment_ != snapshot.environmentIndex || resolutions_ != probeResolutions) return false;
+  if (lightKinds_ != kindsOf(snapshot.lights)) return false;
   return draws_.size() == snapshot.instances.size() && std::ranges::all_of(draws_, [&](const SurfaceDraw& draw) {
            const SnapshotInstance& instance = snapshot.instances[draw.instance];
            const bool deforms = draw.source->isDeformed && instance.mesh->isDeformed;
@@ -206,8 +229,9 @@ bool SceneDraws::fit(const Snapshot& snapshot, const std::vector<int>& probeReso
 void SceneDraws::build(const Snapshot& snapshot, SceneResources& resources, const std::vector<int>& probeResolutions) {
   const int environmentSize = resources.filterEnvironment(technique_.filter, device_.programs);
   SurfacePrograms programs(device_.programs, technique_, snapshot, environmentSize);
-  background_ = device_.programs.background(programs.source());
+  background_ = programs.background();
   environment_ = snapshot.environmentIndex;
+  lightKinds_ = kindsOf(snapshot.lights);
   resolutions_ = probeResolutions;
   draws_.clear();
   for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {

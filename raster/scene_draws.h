@@ -70,6 +70,7 @@ class SceneDraws {
   std::vector<SurfaceDraw> draws_;
   GLuint background_ = 0;
   std::size_t environment_ = 0;  // for which the draws were built
+  std::vector<float> lightKinds_;
   std::vector<int> resolutions_;
   std::map<const Mesh*, bool> isClosed_;  // of those of the scene's meshes that were asked for
 };

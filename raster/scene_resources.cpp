@@ -201,6 +201,7 @@ SurfaceVariant SceneResources::variantOf(int material, const Mesh& mesh, Texture
   if (hasRoughLobe(m)) variant.lobe = m.metallicRoughnessTexture < 0 ? Lobe::rough : Lobe::mixed;
   variant.filter = filter;
   variant.coverage = m.constants.alpha.x;
+  variant.emits = glm::vec3(m.constants.emission) != glm::vec3(0.0f);
   variant.attributes = !mesh.colors.empty();
   const auto textures = texturesOf(*scene_, m);
   const auto slots = slotsOf(m);

@@ -4,7 +4,7 @@
 struct PassConstants {
   View view;
   vec4 image;   // x width and y height in samples, z largest radiance that the colour format holds
-  vec4 lights;  // x number of punctual lights, y of area lights
+  vec4 lights;  // x number of area lights
   vec4 clip;    // of mirrored views and captures with a far plane: only points with dot(xyz, p) + w >= 0 are drawn; else 0
 };
 
@@ -45,8 +45,9 @@ const int kLobeBlock = 4;
 const int kShadowPassBlock = 5;
 const int kProbeBlock = 6;
 const int kSecondProbeBlock = 7;
+const int kLightBlock = 8;
 // Shader storage blocks.
-const int kLightBlock = 0;
+const int kManyLightsBlock = 0;
 const int kSmoothingGroupBlock = 1;
 const int kAreaLightBlock = 2;
 const int kLayerBlock = 3;

@@ -3,22 +3,30 @@
 //
 // Variants by defines, besides those of the included files: SURFACE_KIND (kSurface*), PROBE_LOOKUP for specular
 // surfaces that show their probe's cube map instead of the environment, ALPHA_MASK for surfaces with holes, ALPHA_BLEND for
-// those that cover partly and are composed later (layers.glsl), NO_LIGHTS if lights are left out, SHADOWS if they have
-// shadow maps, CONDUCTOR if the metal's index of refraction is known, and AREA_LIGHTS if surfaces emit. RECORDS_LOOKUP, of
-// opaque surfaces that look up one texel of one probe's map, writes what they show as rest + weight * radiance, for later
+// those that cover partly and are composed later (layers.glsl), LIGHT_COUNT punctual lights, of the kinds LIGHT_KINDS (none:
+// read from a storage block), NO_LIGHTS if lights are left out, SHADOWS if they have shadow maps, AMBIENT for ambient light
+// that the compiler knows, CONDUCTOR if the metal's index of refraction is known, and AREA_LIGHTS if surfaces emit.
+// RECORDS_LOOKUP, of opaque surfaces that look up one texel of one probe's map, writes what they show as rest + weight * radiance, for later
 // bounce iterations (lookup_records.glsl); with MIRROR_RECORDS only what such records have.
 //
 // The colour's alpha says whether a later bounce iteration of the frame may change it: 0 if none does. What is recorded has
 // the number of its group, from 1 on.
 #define PB_FUNC
-#include "raster/shaders/blocks.glsl"
-#include "raster/shaders/surface_fetch.glsl"
-
 #ifndef SURFACE_KIND
 #define SURFACE_KIND kSurfaceDiffuse
 #endif
+#include "raster/shaders/blocks.glsl"
+#include "raster/shaders/surface_fetch.glsl"
 
-layout(std430, binding = kLightBlock) readonly buffer LightBlock { Light lights[]; };
+#if defined(LIGHT_KINDS)
+layout(std140, binding = kLightBlock) uniform LightBlock { Light lights[LIGHT_COUNT]; };
+const float kLightKinds[] = LIGHT_KINDS;
+#elif defined(LIGHT_COUNT)
+layout(std430, binding = kManyLightsBlock) readonly buffer LightBlock { Light lights[]; };
+#endif
+#ifndef AMBIENT
+#define AMBIENT scene.ambient
+#endif
 layout(std430, binding = kAreaLightBlock) readonly buffer AreaLightBlock { AreaLight areaLights[]; };
 layout(binding = kDfgUnit) uniform sampler2D dfgTable;
 
@@ -57,16 +65,20 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
   vec3 irradiance = vec3(0.0f);
   vec3 highlights = vec3(0.0f);
 #ifndef NO_LIGHTS
-  int count = int(pass.lights.x);
+#ifdef LIGHT_COUNT
 #ifdef SHADOWS
   vec3 triangle = triangleNormal();
 #endif
-  for (int i = 0; i < count; ++i) {
-    vec3 fromLight = lightIrradiance(lights[i], s.position);
-#ifdef SHADOWS
-    fromLight *= lightVisibility(lights[i], s.position, triangle);
+  for (int i = 0; i < LIGHT_COUNT; ++i) {
+    Light light = lights[i];
+#ifdef LIGHT_KINDS
+    light.positionKind.w = kLightKinds[i];
 #endif
-    vec3 toLight = lightDirection(lights[i], s.position);
+    vec3 fromLight = lightIrradiance(light, s.position);
+#ifdef SHADOWS
+    fromLight *= lightVisibility(light, s.position, triangle);
+#endif
+    vec3 toLight = lightDirection(light, s.position);
     float NoL = dot(s.normal, toLight);
     irradiance += max(NoL, 0.0f) * fromLight;
 #ifdef ROUGH_LOBE
@@ -74,12 +86,13 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
                   specularBsdf(s, toViewer, toLight, gl_FrontFacing ? s.ior : 1.0f / s.ior, kFresnelLaw, kGeometry);
 #endif
   }
+#endif
 #ifdef AREA_LIGHTS
-  count = int(pass.lights.y);
+  int count = int(pass.lights.x);
   for (int i = 0; i < count; ++i) irradiance += areaLightIrradiance(areaLights[i], s.position, s.normal);
 #endif
 #endif
-  return highlights + localRadiance(s, irradiance, ambientRadiance(scene.ambient, s.normal), coatAlbedo(s, dfg));
+  return highlights + localRadiance(s, irradiance, ambientRadiance(AMBIENT, s.normal), coatAlbedo(s, dfg));
 }
 
 #include "raster/shaders/refraction.glsl"
@@ -89,11 +102,6 @@ vec3 localRadianceOf(Surface s, vec3 toViewer, vec2 dfg) {
 void main() {
   Fragment fragment = makeFragment();
   Surface s = readSurface(fragment);
-  // What the material says, known to the compiler.
-  s.kind = SURFACE_KIND;
-#ifndef CONDUCTOR
-  s.conductorEta = vec4(0.0f);
-#endif
 #if defined(ALPHA_MASK) || defined(ALPHA_BLEND)
   if (s.opacity == 0.0f) discard;
 #endif

@@ -1,6 +1,6 @@
 // The surface at a fragment with its textures read: the twin of pb::readSurface() in scenes/snapshot.h.
 //
-// Variants by defines: ATTRIBUTES if vertices carry more than position and normal; for each texture that the material has
+// Variants by defines: SURFACE_KIND and EMITS (emission is not zero) as far as known; ATTRIBUTES if vertices carry more than position and normal; for each texture that the material has
 // *_TEXTURE, whose value is the sampler's settings; TEXTURES_HARDWARE to filter by the driver's samplers instead of by
 // scenes/shading/texture.glsl.
 
@@ -66,6 +66,28 @@ vec4 sampleSlot(sampler2D image, TextureSlot slot, vec4 settings, Fragment f) {
 }
 #endif
 
+// The material, with what the variant says known to the compiler.
+MaterialConstants knownMaterial() {
+  MaterialConstants m = material;
+#if defined(ALPHA_MASK)
+  m.alpha.x = kAlphaMask;
+#elif defined(ALPHA_BLEND)
+  m.alpha.x = kAlphaBlend;
+#else
+  m.alpha.x = kAlphaOpaque;
+#endif
+#ifdef SURFACE_KIND
+  m.kind.x = SURFACE_KIND;
+#ifndef EMITS
+  m.emission = vec4(vec3(0.0f), m.emission.w);
+#endif
+#endif
+#ifndef CONDUCTOR
+  m.conductorEta = vec4(0.0f);
+#endif
+  return m;
+}
+
 Surface readSurface(Fragment f) {
   vec3 normal = f.normal;
   vec4 vertexColor = vec4(1.0f);
@@ -93,6 +115,6 @@ Surface readSurface(Fragment f) {
 #ifdef OCCLUSION_TEXTURE
   occlusionTexel = sampleSlot(occlusionTexture, material.occlusionSlot, OCCLUSION_TEXTURE, f);
 #endif
-  return makeSurface(material, worldPosition, normal, vertexColor, baseColorTexel, metallicRoughnessTexel,
+  return makeSurface(knownMaterial(), worldPosition, normal, vertexColor, baseColorTexel, metallicRoughnessTexel,
                      emissionTexel, occlusionTexel);
 }

@@ -25,6 +25,22 @@ TEST_P(RasterSurface, DiffuseSurfaceHasTheRadianceOfTheSharedModel) {
   EXPECT_NEAR(centreOf(render(*snapshotOf(std::move(scene)))).x, expected, 1e-5f);
 }
 
+// 256 lights fit into a uniform block, more come from a storage block. Sums of 257 terms round by less than 257 half
+// units in the last place.
+TEST_P(RasterSurface, OneLightLooksAsTwoHundredAndFiftySevenOfItsParts) {
+  const auto litBy = [&](int lights) {
+    Scene scene = makeEmptyScene(vec3(0.0f));
+    for (int i = 0; i < lights; ++i)
+      addDirectionalLight(scene, "light", vec3(0, 0.6f, 0.8f), vec3(2.0f / static_cast<float>(lights)));
+    addBox(scene, vec3(0), vec3(1.0f), makeDiffuseMaterial("grey", vec3(0.5f)));
+    return centreOf(render(*snapshotOf(std::move(scene)))).x;
+  };
+  const float one = litBy(1);
+  EXPECT_GT(one, 0.0f);
+  EXPECT_NEAR(litBy(256), one, 256 * 6e-8f * one);
+  EXPECT_NEAR(litBy(257), one, 257 * 6e-8f * one);
+}
+
 TEST_P(RasterSurface, HardwareTexturesAreNearExactOnes) {
   Technique technique = withResolution(8);
   const auto snapshot = snapshotOf("control");
