@@ -52,7 +52,8 @@ void BounceIterations::run(const std::vector<ProbeFace>& due, std::vector<bool>&
   Run run{shown, levels, work};
   for (int b = 1; b <= technique_.bounces; ++b) {
     run.isLast = b == technique_.bounces;
-    iterate(due, run);
+    work.counted([&] { iterate(due, run); });
+    work.afterIteration.push_back(work.counters);
   }
 }
 

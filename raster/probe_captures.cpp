@@ -162,18 +162,43 @@ std::vector<bool> ProbeCaptures::mapsShownAtFirst() const {
 ShownProbes ProbeCaptures::shown() const { return {.maps = maps_ ? &*maps_ : nullptr, .shown = shown_}; }
 
 void ProbeCaptures::capture(FrameWork& work) {
-  if (hasMaps()) work.counters.probeBytes += probeBytes(technique_, resolutions_, levelFilter(technique_, *snapshot_));
-  if (maps_) filterLevels(*maps_, levels_, work);  // of probes that rough lobes look up for the first time
+  before_ = work.counters;
+  work.counted([&] { prepare(work); });
   if (iterations_) {
     const PlantedFault::Depth depth(device_.fault, device_.context.functions());
-    if (viewsOfProbe(technique_) > 1) fillMissingFaces(work);
     iterations_->run(viewsOfProbe(technique_) == 1 ? oneFaceEach(due_) : due_, shown_, levels_, work);
-    work.counters.probeBytes += iterations_->bytes();
     device_.fault.changeMaps(*maps_, due_, nears_);
   } else if (isCaptured()) {
     work.times.captureMs.resize(static_cast<std::size_t>(technique_.bounces), 0.0);
   }
   if (maps_) filterLevels(*maps_, levels_, work);  // of maps in which nothing but the environment has changed
+  work.counters.probeBytes += bytesOf(technique_, *snapshot_);
+  afterIteration_ = work.afterIteration;
+  after_ = work.counters;
+}
+
+// What comes before the bounce iterations.
+void ProbeCaptures::prepare(FrameWork& work) {
+  if (maps_) filterLevels(*maps_, levels_, work);  // of probes that rough lobes look up for the first time
+  if (!iterations_ || viewsOfProbe(technique_) == 1) return;
+  const PlantedFault::Depth depth(device_.fault, device_.context.functions());
+  fillMissingFaces(work);
+}
+
+std::int64_t ProbeCaptures::bytesOf(const Technique& technique, const Snapshot& snapshot) const {
+  if (!hasMaps()) return 0;
+  return probeBytes(technique, resolutions_, levelFilter(technique, snapshot)) +
+         (iterations_ ? iterations_->bytes() : 0);
+}
+
+// Iterations beyond those of the technique are taken off.
+FrameCounters ProbeCaptures::countersOf(int bounces) const {
+  FrameCounters counters = after_;
+  counters -= before_;
+  if (afterIteration_.empty()) return counters;
+  counters -= afterIteration_.back();
+  counters += afterIteration_[static_cast<std::size_t>(bounces - 1)];
+  return counters;
 }
 
 // Faces that are never captured show the environment of the snapshot's time.

@@ -45,6 +45,13 @@ class ProbeCaptures {
   // Per probe and face: frames since its capture, at the frame that ended last; see FrameStats.
   std::vector<std::array<std::int64_t, 6>> faceAges() const;
 
+  // Memory of the maps and of what fills them, for a technique whose captures are those of the last frame
+  // (raster/equal_captures.h). The snapshot's probes are the technique's.
+  std::int64_t bytesOf(const Technique& technique, const Snapshot& snapshot) const;
+  // What capturing the last frame took, or had taken with so many bounce iterations, at most those that there were;
+  // without memory.
+  FrameCounters countersOf(int bounces) const;
+
   // As RasterSequence's.
   std::array<Image, 6> read(int probe, int level) const;
   std::array<Plane, 6> readDistances(int probe) const;
@@ -58,6 +65,7 @@ class ProbeCaptures {
   void showGiven();
   void checkGiven(std::size_t probe, const GivenProbe& content) const;
   std::vector<bool> mapsShownAtFirst() const;
+  void prepare(FrameWork& work);
   void fillMissingFaces(FrameWork& work);
   void requireMap(int probe) const;
 
@@ -81,8 +89,10 @@ class ProbeCaptures {
   bool areLookedUp_ = true;  // maps, by anything
   std::vector<int> resolutions_;
   std::vector<ProbeFace> due_;
-  std::vector<bool> shown_;   // by probe: lookups read its map, not the environment
-  std::vector<bool> levels_;  // by probe: lookups read its filtered levels
+  std::vector<bool> shown_;                    // by probe: lookups read its map, not the environment
+  std::vector<bool> levels_;                   // by probe: lookups read its filtered levels
+  FrameCounters before_, after_;               // capture()
+  std::vector<FrameCounters> afterIteration_;  // likewise
 };
 
 }  // namespace pb

@@ -1,18 +1,11 @@
 #include "raster/renderer.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "raster/device.h"
-#include "raster/final_image.h"
 #include "raster/frame_passes.h"
 #include "raster/lookup.h"
-#include "raster/planar.h"
-#include "raster/planar_images.h"
-#include "raster/probe_captures.h"
-#include "raster/probe_layout.h"
-#include "raster/scene_pass.h"
+#include "raster/sequence_impl.h"
 #include "scenes/error.h"
 
 namespace pb {
@@ -27,25 +20,14 @@ FrameCounters& FrameCounters::operator+=(const FrameCounters& other) {
   return *this;
 }
 
-struct RasterSequence::Impl {
-  Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx, int heightPx, int samplesPerAxis);
-  ~Impl() { device.context.makeCurrent(); }  // the members free GL objects
-
-  FrameStats renderFrame(const Snapshot& sceneSnapshot, FrameWork& work);
-  std::vector<gpu::PassConstants> passesOf(const Snapshot& snapshot) const;
-  void drawMirroredViews(const Snapshot& snapshot, std::size_t firstPass, FrameWork& work);
-
-  RasterDevice::Impl& device;
-  const Technique technique;
-  std::optional<ScenePass> scenePass;
-  std::optional<ProbeCaptures> captures;
-  std::optional<FinalImage> image;
-  std::optional<PassTimer> timer;
-  ProbeLayout layout;
-  std::vector<MirroredView> mirrors;  // of this frame
-  std::optional<PlanarImages> mirrorImages;
-  std::vector<GLuint> mirrorImageOfInstance;  // by instance: 0 for those that show none
-};
+FrameCounters& FrameCounters::operator-=(const FrameCounters& other) {
+  facesCaptured -= other.facesCaptured;
+  draws -= other.draws;
+  triangles -= other.triangles;
+  fragments -= other.fragments;
+  texelsFiltered -= other.texelsFiltered;
+  return *this;
+}
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx, int heightPx,
                            int samplesPerAxis)
@@ -64,25 +46,40 @@ RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& techniq
 FrameStats RasterSequence::Impl::renderFrame(const Snapshot& sceneSnapshot, FrameWork& work) {
   device.context.makeCurrent();
   const Snapshot& snapshot = layout.apply(sceneSnapshot);
-  mirrors = mirroredViews(technique, snapshot);
-  captures->beginFrame(snapshot);
-  const std::vector<gpu::PassConstants> passes = passesOf(snapshot);
-  scenePass->beginFrame(snapshot, passes, captures->resolutions());
-
-  work.counters.probeBytes = mirroredViewBytes(mirrors.size(), image->widthSamples(), image->heightSamples());
-  work.times.shadowMs = work.timed([&] { scenePass->drawShadows(work.counters); });
-  captures->capture(work);
-  drawMirroredViews(snapshot, passes.size() - mirrors.size(), work);
-  ShownProbes shown = captures->shown();
-  shown.mirroredViews = mirrors.empty() ? nullptr : &mirrorImageOfInstance;
-  work.times.finalMs = work.timed([&] { scenePass->draw(kFinalPass, image->target(), shown, work.counters); });
+  capture(snapshot, work);
+  work.counted([&] {
+    drawMirroredViews(snapshot, work);
+    drawFinalImage(work);
+  });
   device.context.check("rendering a frame");
-
   captures->endFrame();
   return {.counters = work.counters,
           .faceAgeFrames = captures->faceAges(),
           .coats = coatSources(technique, snapshot),
           .mirrors = mirrorSources(technique, snapshot)};
+}
+
+void RasterSequence::Impl::captureFrame(const Snapshot& sceneSnapshot, FrameWork& work) {
+  device.context.makeCurrent();
+  capture(layout.apply(sceneSnapshot), work);
+  device.context.check("capturing a frame's probes");
+  captures->endFrame();
+}
+
+const gl::Functions* RasterSequence::Impl::fragmentCount(bool isWanted) {
+  return isWanted ? &device.context.functions() : nullptr;
+}
+
+void RasterSequence::Impl::capture(const Snapshot& snapshot, FrameWork& work) {
+  mirrors = mirroredViews(technique, snapshot);
+  captures->beginFrame(snapshot);
+  const std::vector<gpu::PassConstants> passes = passesOf(snapshot);
+  firstMirroredPass = passes.size() - mirrors.size();
+  scenePass->beginFrame(snapshot, passes, captures->resolutions());
+
+  work.counters.probeBytes = mirroredViewBytes(mirrors.size(), image->widthSamples(), image->heightSamples());
+  work.counted([&] { work.times.shadowMs = work.timed([&] { scenePass->drawShadows(work.counters); }); });
+  captures->capture(work);
 }
 
 std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& snapshot) const {
@@ -95,7 +92,7 @@ std::vector<gpu::PassConstants> RasterSequence::Impl::passesOf(const Snapshot& s
 }
 
 // The views of planar reflectors, which see the newest maps.
-void RasterSequence::Impl::drawMirroredViews(const Snapshot& snapshot, std::size_t firstPass, FrameWork& work) {
+void RasterSequence::Impl::drawMirroredViews(const Snapshot& snapshot, FrameWork& work) {
   if (mirrors.empty()) return;
   if (!mirrorImages) mirrorImages.emplace(device.context, image->widthSamples(), image->heightSamples());
   mirrorImages->reserve(mirrors.size());
@@ -103,12 +100,18 @@ void RasterSequence::Impl::drawMirroredViews(const Snapshot& snapshot, std::size
   if (work.times.captureMs.empty()) work.times.captureMs.push_back(0.0);
   work.times.captureMs.back() += work.timed([&] {
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
-      scenePass->draw(firstPass + i, mirrorImages->target(i), captures->shown(), work.counters);
+      scenePass->draw(firstMirroredPass + i, mirrorImages->target(i), captures->shown(), work.counters);
       ++work.counters.facesCaptured;
       for (const int instance : mirrors[i].instances)
         mirrorImageOfInstance[static_cast<std::size_t>(instance)] = mirrorImages->image(i);
     }
   });
+}
+
+void RasterSequence::Impl::drawFinalImage(FrameWork& work) {
+  ShownProbes shown = captures->shown();
+  shown.mirroredViews = mirrors.empty() ? nullptr : &mirrorImageOfInstance;
+  work.times.finalMs = work.timed([&] { scenePass->draw(kFinalPass, image->target(), shown, work.counters); });
 }
 
 void RasterSequence::check(RasterDevice& device, const Technique& technique, const Snapshot& snapshot, int widthPx,
@@ -128,16 +131,8 @@ RasterSequence::RasterSequence(RasterDevice& device, const Technique& technique,
 RasterSequence::~RasterSequence() = default;
 
 FrameStats RasterSequence::renderFrame(const Snapshot& snapshot, bool countFragments) {
-  FrameWork work;
-  if (!countFragments) return impl_->renderFrame(snapshot, work);
-  impl_->device.context.makeCurrent();
-  const gl::Functions& gl = impl_->device.context.functions();
-  const gl::Query query = gl::makeQuery(gl, GL_SAMPLES_PASSED);
-  gl.BeginQuery(GL_SAMPLES_PASSED, query.id());
-  FrameStats stats = impl_->renderFrame(snapshot, work);
-  gl.EndQuery(GL_SAMPLES_PASSED);
-  stats.counters.fragments = static_cast<std::int64_t>(gl::queryResult(query));
-  return stats;
+  FrameWork work{.fragmentCount = impl_->fragmentCount(countFragments)};
+  return impl_->renderFrame(snapshot, work);
 }
 
 PassTimes RasterSequence::renderFrameTimed(const Snapshot& snapshot) {

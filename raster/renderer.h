@@ -42,6 +42,7 @@ struct FrameCounters {
   std::int64_t texelsFiltered = 0;  // written by the filter of the cube maps, its own copies included
 
   FrameCounters& operator+=(const FrameCounters& other);  // probeBytes: the larger
+  FrameCounters& operator-=(const FrameCounters& other);  // what came after `other`; probeBytes stays
   friend bool operator==(const FrameCounters&, const FrameCounters&) = default;
 };
 
@@ -124,6 +125,7 @@ class RasterSequence {
   std::array<Plane, 6> readProbeDistances(int probe);
 
   struct Impl;
+  Impl& impl() { return *impl_; }
 
  private:
   std::unique_ptr<Impl> impl_;
