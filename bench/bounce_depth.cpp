@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "raster/probe_resolution.h"
+#include "raster/probe_owners.h"
+#include "raster/refraction.h"
 
 namespace pb {
 namespace {
@@ -10,12 +11,6 @@ namespace {
 constexpr int kMostHits = 1'000'000;  // deeper maps than anybody compares, but no overflow
 
 std::size_t indexOf(int i) { return static_cast<std::size_t>(i); }
-
-// Has an inside that light crosses.
-bool isSolidGlass(const Material& material) {
-  const auto& kind = material.constants.kind;
-  return kind.x == shading::kSurfaceGlass && kind.z > 0.0f;
-}
 
 // Without what neither says which faces are captured nor what they see of each other.
 Technique capturesOf(Technique technique) {
@@ -33,25 +28,28 @@ Technique capturesOf(Technique technique) {
 
 }  // namespace
 
-BounceDepth::BounceDepth(const Technique& technique, int heightPx)
-    : technique_(technique), heightPx_(heightPx), layout_(technique) {
-  history_.technique = technique;
+int hitsBeforeMap(const Snapshot& snapshot, const std::vector<int>& owners) {
+  const bool isCrossed = std::ranges::any_of(
+      owners, [&](int owner) { return isSolidGlass(snapshot.materialOf(snapshot.instances[indexOf(owner)])); });
+  return isCrossed ? 2 : 1;
 }
+
+BounceDepth::BounceDepth(const Technique& technique, int heightPx)
+    : technique_(technique), layout_(technique), schedule_(technique, heightPx) {}
 
 int BounceDepth::advance(const Snapshot& given) {
   const Snapshot& snapshot = layout_.apply(given);
   hits_.clear();
-  for (const Probe& probe : snapshot.probes) hits_.push_back(hitsAt(snapshot, probe));
+  for (const Probe& probe : snapshot.probes) hits_.push_back(hitsBeforeMap(snapshot, probe.owners));
   if (technique_.probes == ProbeUse::dynamic) {
-    followProbes(snapshot);
-    const std::vector<ProbeFace> due = dueFacesOf(snapshot);
+    const std::vector<ProbeFace> due = schedule_.advance(snapshot);
+    followProbes();
     depths_.resize(snapshot.probes.size());
     shown_ = isComplete_;
     shown_.resize(snapshot.probes.size(), false);
     if (technique_.feedback == Feedback::sky)
       for (const ProbeFace& f : due) shown_[indexOf(f.probe)] = false;
     for (int b = 0; b < technique_.bounces; ++b) capture(due);
-    pb::advance(history_, due, snapshot);
     isComplete_.assign(snapshot.probes.size(), true);
   }
   int deepest = 1;
@@ -60,29 +58,12 @@ int BounceDepth::advance(const Snapshot& given) {
   return deepest;
 }
 
-int BounceDepth::hitsAt(const Snapshot& snapshot, const Probe& probe) {
-  const bool isCrossed = std::ranges::any_of(
-      probe.owners, [&](int owner) { return isSolidGlass(snapshot.materialOf(snapshot.instances[indexOf(owner)])); });
-  return isCrossed ? 2 : 1;
-}
-
 // Those with other owners than any in the frame before start anew.
-void BounceDepth::followProbes(const Snapshot& snapshot) {
-  const std::optional<std::vector<int>> before = probes_.follow(snapshot);
+void BounceDepth::followProbes() {
+  const std::optional<std::vector<int>>& before = schedule_.probesBefore();
   if (!before) return;
-  reorder(history_, *before);
   depths_ = reordered(std::move(depths_), *before, {});
-  resolutions_ = reordered(std::move(resolutions_), *before, 0);
   isComplete_ = reordered(std::move(isComplete_), *before, false);
-}
-
-// Probes whose resolution changes are due with all of their faces.
-std::vector<ProbeFace> BounceDepth::dueFacesOf(const Snapshot& snapshot) {
-  std::vector<int> wanted = probeResolutions(technique_, snapshot, heightPx_);
-  for (std::size_t probe = 0; probe < history_.lastCapturedFrame.size(); ++probe)
-    if (wanted[probe] != resolutions_[probe]) history_.lastCapturedFrame[probe].fill(-1);
-  resolutions_ = std::move(wanted);
-  return dueFaces(technique_.refresh, history_, snapshot);
 }
 
 // One iteration. Faces are ordered by probe.

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "raster/probe_layout.h"
-#include "raster/probe_owners.h"
-#include "raster/refresh.h"
+#include "raster/scheduled_faces.h"
 #include "raster/technique.h"
 #include "scenes/snapshot.h"
 
@@ -16,6 +15,10 @@ namespace pb {
 
 // Beyond so many hits a truncated truth is taken for the converged one: mirrors that reflect 90 % have 0.1 % left.
 inline constexpr int kMaxMatchedDepth = 64;
+
+// Hits of light on the owners of a probe before their map is seen: 2 of solid glass, which is looked through, in and
+// out.
+int hitsBeforeMap(const Snapshot& snapshot, const std::vector<int>& owners);
 
 // Follows the captures of a sequence. A map is as deep as the specular hits on the longest path that it shows before
 // the environment: one more than the deepest of the other maps that its capture saw. Where maps are of several depths
@@ -30,23 +33,16 @@ class BounceDepth {
   int advance(const Snapshot& snapshot);
 
  private:
-  // A surface's hits before its map is seen: 2 of what is looked through, in and out.
-  static int hitsAt(const Snapshot& snapshot, const Probe& probe);
-
-  void followProbes(const Snapshot& snapshot);
-  std::vector<ProbeFace> dueFacesOf(const Snapshot& snapshot);
+  void followProbes();
   void capture(const std::vector<ProbeFace>& due);
   void captureProbes(const std::vector<ProbeFace>& faces);
   int depthSeenFrom(std::size_t probe) const;
   int mapDepth(std::size_t probe) const;
 
   Technique technique_;
-  int heightPx_;
   ProbeLayout layout_;
-  ProbeFollower probes_;
-  RefreshHistory history_;
-  std::vector<int> resolutions_;  // by probe
-  std::vector<int> hits_;         // by probe: hitsAt()
+  ScheduledFaces schedule_;
+  std::vector<int> hits_;         // by probe: hitsBeforeMap()
   std::vector<bool> isComplete_;  // by probe: its map was captured in an earlier frame
   std::vector<bool> shown_;       // by probe: whether lookups see its map
   ByProbeAndFace<int> depths_;    // of what the maps hold

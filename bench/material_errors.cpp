@@ -1,7 +1,8 @@
 #include "bench/material_errors.h"
 
-#include <algorithm>
 #include <cassert>
+
+#include "bench/instance_map.h"
 
 namespace pb {
 namespace {
@@ -12,26 +13,10 @@ int materialOf(const Snapshot& snapshot, const SampleId& id) {
   return id.instance == 0 ? kEnvironment : snapshot.instances[id.instance - 1].material;
 }
 
-// The most frequent value, the first of several.
-int mode(const std::vector<int>& values) {
-  const auto count = [&](int value) { return std::ranges::count(values, value); };
-  return *std::ranges::max_element(values, {}, count);
-}
-
 }  // namespace
 
 Grid<int> materialMap(const Snapshot& snapshot, const Grid<SampleId>& ids, int samplesPerAxis) {
-  Grid<int> map(ids.width() / samplesPerAxis, ids.height() / samplesPerAxis);
-  std::vector<int> samples;
-  for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x) {
-      samples.clear();
-      for (int j = 0; j < samplesPerAxis; ++j)
-        for (int i = 0; i < samplesPerAxis; ++i)
-          samples.push_back(materialOf(snapshot, ids(x * samplesPerAxis + i, y * samplesPerAxis + j)));
-      map(x, y) = mode(samples);
-    }
-  return map;
+  return mostFrequent(ids, samplesPerAxis, [&](const SampleId& id) { return materialOf(snapshot, id); });
 }
 
 std::vector<MaterialError> computeMaterialErrors(const Scene& scene, const Grid<int>& materials, const Image& reference,

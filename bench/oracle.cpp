@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bench/bounce_depth.h"
 #include "bench/interrupt.h"
 #include "raster/lookup.h"
 
@@ -16,18 +17,6 @@ Technique withGivenMaps(Technique technique) {
   technique.probes = ProbeUse::given;
   return technique;
 }
-
-namespace {
-
-int hitsBeforeMap(const Snapshot& snapshot, const std::vector<int>& owners) {
-  const bool isCrossed = std::ranges::any_of(owners, [&](int owner) {
-    const glm::vec4& kind = snapshot.materialOf(snapshot.instances[static_cast<std::size_t>(owner)]).constants.kind;
-    return kind.x == shading::kSurfaceGlass && kind.z > 0.0f;  // with a thickness
-  });
-  return isCrossed ? 2 : 1;
-}
-
-}  // namespace
 
 OracleMaps traceMaps(const ProbeViews& views, ReferenceSettings settings, bool withDistances) {
   settings.samplesPerAxis = 1;

@@ -71,9 +71,11 @@ void Rates::save() const {
 }
 
 std::string printWork(const PlanWork& work, const Rates& rates) {
-  std::string text = fmt::format("at most {}, {} stored; {} with {:.0f} captured faces; {} of frames for cost\n",
-                                 counted(work.references, "reference"), work.stored,
-                                 counted(work.frames, "raster frame"), work.captures, counted(work.blocks, "block"));
+  std::string text = fmt::format(
+      "at most {}, {} stored; {}, of which {} share another's captures, with {:.0f} captured faces; {} of frames for "
+      "cost\n",
+      counted(work.references, "reference"), work.stored, counted(work.frames, "raster frame"), work.sharing,
+      work.captures, counted(work.blocks, "block"));
   std::map<std::string, double> seconds;
   std::set<std::string> unknown;
   for (const auto& [kind, units] : work.units) {

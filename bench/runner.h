@@ -1,5 +1,5 @@
-// Runs a plan: references, then errors (rasterising on the calling thread, metrics of earlier cells beside it), then
-// cost with nothing else running. Results do not depend on the order in which cells finish.
+// Runs a plan: references and errors (bench/error_runner.h), intervals, attribution, then cost with nothing else
+// running. Results do not depend on the order in which cells finish.
 #pragma once
 
 #include <memory>
@@ -21,10 +21,6 @@ using Scenes = std::vector<std::shared_ptr<const Scene>>;  // one a scene of the
 // Loads the suite's scenes and puts the name of a scene's first camera where the suite names none.
 Scenes loadScenes(Suite& suite);
 
-// Throws if the program of an external technique can't be found or a picture that was made earlier is not there: what
-// is sure to fail fails before anything is rendered.
-void requireExternals(const Suite& suite, const Scenes& scenes, const Plan& plan);
-
 struct RunContext {
   const Suite& suite;
   const Scenes& scenes;
@@ -35,19 +31,18 @@ struct RunContext {
   Progress& progress;
 };
 
+// External techniques that could not take a scene's job: "external NAME on SCENE" and why, one a pair.
+using SkippedExternals = std::vector<std::pair<std::string, std::string>>;
+
 struct RunOutcome {
   std::vector<CellResult> cells;  // in the plan's order
   std::vector<Attribution> attribution;
   std::string benchmarkJson;  // empty if no cost was measured
-  // External techniques that could not take a scene's job: "external NAME on SCENE" and why, one a pair.
-  std::vector<std::pair<std::string, std::string>> skipped;
+  SkippedExternals skipped;
   std::vector<std::string> noisyReferences;  // those that missed max_noise: one sentence each
 };
 
 // Throws Error(Failure::interrupted) at a cell boundary after an interrupt; what is done stands in the journal.
 RunOutcome runPlan(const RunContext& context);
-
-// Throws the input Errors with which a technique would refuse its scene, before anything is rendered.
-void checkPlan(const Suite& suite, const Scenes& scenes, const Plan& plan, RasterDevice& device);
 
 }  // namespace pb

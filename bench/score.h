@@ -17,14 +17,25 @@ struct RenderedFrame {
   int number;
 };
 
-struct ScoreRequest {
+// Scores of a picture, whoever rendered it. Pictures that are equal in every bit have them in common.
+struct PictureScores {
+  MetricsResult errors;                  // against the converged truth
+  std::optional<MatchedErrors> matched;  // where a depth was given
+  double unbiasedMse = 0;
+  std::vector<MaterialError> materials;
+  std::vector<ErrorCluster> clusters;
+};
+
+// depth: of the truth that matches the picture, one of Truth::truncated.
+PictureScores scorePicture(const Truth& truth, const Image& image, const std::optional<int>& depth);
+
+struct ScoredFrame {
   RenderedFrame frame;
   std::optional<RenderedFrame> before{};  // the measured frame before it in the sequence
-  std::optional<int> depth{};             // of the truth that matches it, one of Truth::truncated
   const Technique& technique;             // whose probes the objects look up
 };
 
-// Fills in the cell's errors and tables. Returns the map of HDR-FLIP.
-Plane scoreCell(const ScoreRequest& request, CellResult& cell);
+// Fills in the cell's errors and tables.
+void fillIn(const PictureScores& scores, const ScoredFrame& scored, CellResult& cell);
 
 }  // namespace pb

@@ -1,10 +1,12 @@
 #include "bench/work.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "bench/attribution_steps.h"
 #include "bench/bounce_depth.h"
+#include "bench/capture_groups.h"
 #include "bench/cost.h"
 #include "bench/oracle.h"
 #include "bench/truth.h"
@@ -52,8 +54,9 @@ class WorkCounter {
       if (sequence.scene == scene) sequences.push_back(&sequence);
     if (sequences.empty()) return;
     countReferences(scene, sequences);
-    for (const PlannedSequence* sequence : sequences)
-      if (!sequence->external) countSequence(*sequence);
+    std::vector<const PlannedSequence*> own;
+    std::ranges::copy_if(sequences, std::back_inserter(own), [](const auto* sequence) { return !sequence->external; });
+    countSequences(scene, own);
     pictures_ += static_cast<double>(sequences.size());
     work_.units[{"intervals", suite_.name}] = pictures_ * megapixels(suite_.image, 1) * kScoring;
   }
@@ -92,7 +95,25 @@ class WorkCounter {
         pictures.emplace(frame, depths[i][static_cast<std::size_t>(frame - first)]);
   }
 
-  void countSequence(const PlannedSequence& sequence) {
+  void countSequences(std::size_t scene, const std::vector<const PlannedSequence*>& sequences) {
+    if (sequences.empty()) return;
+    const int first = suite_.scenes[scene].startFrame();
+    std::vector<Technique> techniques;
+    int last = first;
+    for (const PlannedSequence* sequence : sequences) {
+      techniques.push_back(sequence->technique);
+      last = std::max(last, sequence->frames.back());
+    }
+    for (const std::vector<std::size_t>& group : captureGroups(
+             techniques, first, last, [&](int frame) { return snapshot(scene, frame); }, suite_.image.heightPx)) {
+      const std::size_t capturing =
+          *std::ranges::max_element(group, {}, [&](std::size_t i) { return techniques[i].bounces; });
+      for (const std::size_t i : group) countSequence(*sequences[i], group.size() > 1, i == capturing);
+    }
+  }
+
+  // isShared: rendered together with others, from captures of one of them.
+  void countSequence(const PlannedSequence& sequence, bool isShared, bool isCapturing) {
     const Technique& technique = sequence.technique;
     const int first = suite_.scenes[sequence.scene].startFrame();
     const int probes = static_cast<int>(ProbeLayout(technique).apply(*snapshot(sequence.scene, first)).probes.size());
@@ -101,16 +122,19 @@ class WorkCounter {
     for (int i = 0; i <= std::min(block, kMostModelFrames); ++i)
       snapshots.push_back(snapshot(sequence.scene, first + i));
     const double faces = modelRenders(technique, snapshots).perFrame - 1;
-    const double frames = sequence.frames.back() - first + 1;
+    const int frames = sequence.frames.back() - first + 1;
     const double face = static_cast<double>(technique.resolution) * technique.resolution / kMillion + kRender;
-    const double samples = megapixels(suite_.image, suite_.image.samplesPerAxis);
-    work_.frames += static_cast<std::size_t>(frames);
     // The first frame captures everything, whatever comes after it.
-    const double captured =
-        static_cast<double>(probes) * capturedFaceCount(technique) * technique.bounces + (frames - 1) * faces;
-    work_.captures += captured;
+    const double captured = static_cast<double>(probes) * capturedFaceCount(technique) * technique.bounces +
+                            static_cast<double>(frames - 1) * faces;
+    // Those that share captures are shown in the frames that are measured.
+    const std::size_t shown = isShared ? sequence.frames.size() : static_cast<std::size_t>(frames);
+    work_.frames += shown;
+    if (!isCapturing) work_.sharing += shown;
+    if (isCapturing) work_.captures += captured;
+    const double samples = megapixels(suite_.image, suite_.image.samplesPerAxis);
     work_.units[{"errors", scenes_[sequence.scene]->name}] +=
-        frames * (samples + kRender) + captured * face +
+        static_cast<double>(shown) * (samples + kRender) + (isCapturing ? captured * face : 0.0) +
         static_cast<double>(sequence.frames.size()) * kScoring * megapixels(suite_.image, 1);
     countCost(block, faces * face);
     countAttribution(sequence, probes);

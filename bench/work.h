@@ -27,8 +27,9 @@ struct PlanWork {
   std::string suite;
   std::size_t references = 0;  // distinct pictures: frames of scenes, at the depths that are asked for
   std::size_t stored = 0;      // of those
-  std::size_t frames = 0;      // that the rasteriser renders for errors, of all sequences
-  double captures = 0;         // faces of cubes in these frames, by the cost model
+  std::size_t frames = 0;      // final images that the rasteriser renders for errors, of all sequences
+  std::size_t sharing = 0;     // of those: from captures of another sequence's (bench/capture_groups.h)
+  double captures = 0;         // faces of cubes that are captured for them, by the cost model
   std::size_t blocks = 0;      // cost measurements times repetitions
   bool mayRefine = false;      // max_noise may ask for more than one picture a reference
   std::map<WorkKind, double> units;

@@ -12,6 +12,7 @@
 #include "bench/certify.h"
 #include "bench/commands/commands.h"
 #include "bench/plan.h"
+#include "bench/plan_check.h"
 #include "bench/provenance.h"
 #include "bench/recommend.h"
 #include "bench/report.h"

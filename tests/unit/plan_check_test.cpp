@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/runner.h"
+#include "bench/plan_check.h"
 #include "tests/error_message.h"
 #include "tests/unit/raster_fixture.h"
 

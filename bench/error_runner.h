@@ -1,0 +1,18 @@
+// The errors of a plan's cells: references, then rasterising on the calling thread with the metrics of earlier cells
+// beside it. Sequences with equal captures are rendered together, equal pictures of a frame are scored once.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "bench/runner.h"
+
+namespace pb {
+
+using FinishedCells = std::map<std::string, CellResult>;  // by key
+
+// Measures what is not finished and adds it to `finished` and to the run's journal. Returns the external techniques
+// that were skipped.
+SkippedExternals measureErrors(const RunContext& context, FinishedCells& finished);
+
+}  // namespace pb
