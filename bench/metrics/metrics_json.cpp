@@ -63,8 +63,9 @@ std::optional<Ssim> ssimFromJson(const Json& json) {
   Ssim ssim;
   ssim.mean = decodeNumber(json.at("ssim"));
   ssim.luma = decodeNumber(json.at("ssim_luma"));
+  const Json& channels = json.at("ssim_channels");
   for (std::size_t i = 0; i < ssim.channels.size(); ++i)
-    ssim.channels[i] = decodeNumber(json.at("ssim_channels").at(i));
+    ssim.channels[i] = decodeNumber(channels.is_null() ? Json() : channels.at(i));
   return ssim;
 }
 

@@ -191,11 +191,59 @@ TEST(Steps, GoToTheNearestNumbersOfOneAxis) {
   EXPECT_EQ(answer.steps[0].to, "64");
   EXPECT_EQ(answer.steps[1].to, "256");
   EXPECT_NEAR(answer.steps[1].gain, 0.01, 1e-12);
-  EXPECT_NEAR(answer.steps[1].plusMinus, std::hypot(0.01, 0.002), 1e-12);
+  EXPECT_NEAR(answer.steps[1].plusMinus, 0.01 + 0.002, 1e-12);  // nothing is known of what they have in common
   EXPECT_NEAR(answer.steps[1].costFactor->value, 2.0, 1e-12);
   EXPECT_NEAR(answer.steps[1].costFactor->high, 2.0 * 1.02 / 0.98, 1e-12);
   EXPECT_EQ(answer.steps[2].axis, "refresh");
   EXPECT_EQ(answer.steps[2].to, "static");
+}
+
+// Replicates of both go up and down together by 0.01, their difference by 0.0004.
+void addReplicates(CellResult& cell, double own) {
+  std::vector<double> replicates;
+  for (int b = 0; b < 16; ++b)
+    replicates.push_back(cell.maskMetrics->flipHdr->mean + (b % 2 == 0 ? 1 : -1) * (0.01 + own) / 15);
+  cell.maskReplicates = {{"flip_hdr", replicates}};
+  cell.referenceHash = "same";
+}
+
+// sqrt(15/16 * 16 (d/15)^2) = d / sqrt(15) for replicates at +-d/15 about the value; t = 2.131.
+TEST(Steps, AgainstTheSameReference_ArePaired) {
+  Results results = oneScene();
+  addReplicates(results.cells[1], 0);       // 128: 0.20
+  addReplicates(results.cells[2], 0.0004);  // 256: 0.19
+  const Step step = recommend(results, maxError(0.25)).steps[1];
+  EXPECT_EQ(step.verdict, Verdict::better);
+  EXPECT_NEAR(step.plusMinus, 2.131 * 0.0004 / std::sqrt(15.0), 1e-9);
+  results.cells[2].referenceHash = "other";
+  EXPECT_EQ(recommend(results, maxError(0.25)).steps[1].verdict, Verdict::equal);
+}
+
+// By their own intervals, 0.02 wide, neither dominates the other.
+TEST(Front, AgainstTheSameReference_LeavesOutWhatIsWorseForSure) {
+  const std::vector<Choice> choices = {{"64", "static", 0.200, 0.01, 1.0}, {"128", "static", 0.195, 0.01, 1.0}};
+  Results results = resultsOf({{"a", choices}});
+  EXPECT_THAT(recommend(results, {}).front, SizeIs(2));
+  for (CellResult& cell : results.cells) addReplicates(cell, 0);
+  EXPECT_THAT(recommend(results, {}).front, ElementsAre(1));
+}
+
+// The second frame, of another reference, has no replicates: it takes its interval from the first, as errors do.
+TEST(Steps, OfSeveralFrames_ArePairedFrameByFrame) {
+  Results results = resultsOf({{"a", {{"64", "static", 0.20, 0.01, 1.0}, {"128", "static", 0.19, 0.01, 2.0}}}});
+  for (CellResult& cell : results.cells) addReplicates(cell, cell.technique[0].second == "64" ? 0 : 0.0004);
+  for (const std::size_t i : {0u, 1u}) {
+    results.cells.push_back(results.cells[i]);
+    results.cells.back().frame = 1;
+    results.cells.back().maskIntervals.clear();
+    results.cells.back().maskReplicates.clear();
+  }
+  const Step step = recommend(results, maxError(0.25)).steps[0];
+  EXPECT_NEAR(step.gain, 0.01, 1e-12);
+  EXPECT_NEAR(step.plusMinus, 2.131 * 0.0004 / std::sqrt(15.0), 1e-9);
+  // Known of one alone, it is not what the two have in common.
+  results.cells[3].maskIntervals = {{"flip_hdr", {0.18, 0.20}}};
+  EXPECT_NEAR(recommend(results, maxError(0.25)).steps[0].plusMinus, 0.02, 1e-12);
 }
 
 TEST(PrintedRecommendation, NamesTheAnswerItsCostTheStepsAndTheFront) {
@@ -205,7 +253,7 @@ TEST(PrintedRecommendation, NamesTheAnswerItsCostTheStepsAndTheFront) {
   EXPECT_THAT(text, HasSubstr("Cheapest: resolution=128 refresh=every-frame\n  flip_hdr 0.200 +- 0.01\n"));
   EXPECT_THAT(text, HasSubstr("3.00x [2.94, 3.06] of a plain frame, 12.0 ms, 2.10 MB of probes\n"));
   EXPECT_THAT(text, HasSubstr("resolution 128 -> 256 changes nothing within 0.01 for 2.00x the time\n"));
-  EXPECT_THAT(text, HasSubstr("refresh every-frame -> static loses 0.350 +- 0.01 for 0.367x the time\n"));
+  EXPECT_THAT(text, HasSubstr("refresh every-frame -> static loses 0.350 +- 0.02 for 0.367x the time\n"));
   EXPECT_THAT(text, HasSubstr("| *"));
   EXPECT_THAT(text, HasSubstr("probebench run quick --only ' resolution=128 (.* )?refresh=every-frame( |$)'"));
 }

@@ -55,6 +55,10 @@ TEST(Results, JsonRoundTrip_KeepsEveryMember) {
   EXPECT_EQ(a.floor, b.floor);
   EXPECT_EQ(a.maskFloor, b.maskFloor);
   EXPECT_EQ(a.unbiased, b.unbiased);
+  EXPECT_EQ(a.intervals, b.intervals);
+  EXPECT_EQ(a.replicates, b.replicates);
+  EXPECT_EQ(a.maskReplicates, b.maskReplicates);
+  EXPECT_EQ(a.referenceHash, b.referenceHash);
   EXPECT_EQ(a.counters, b.counters);
   EXPECT_EQ(a.faceAgeFrames, b.faceAgeFrames);
   EXPECT_EQ(a.coatsOfProbes, b.coatsOfProbes);

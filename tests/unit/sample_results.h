@@ -122,6 +122,9 @@ inline Results makeResults() {
         cell.matched = makeMatched(error);
         cell.intervals = {{"flip_hdr", {1.9 * error, 2.1 * error}}, {"ssim", {0.5, 2.0 / 3.0}}};
         cell.maskIntervals = {{"flip_hdr", {7.9 * error, 8.1 * error}}};
+        cell.replicates = {{"flip_hdr", {1.99 * error, 2.01 * error}}, {"ssim", {0.6, 1.0 / 3.0}}};
+        cell.maskReplicates = {{"flip_hdr", {7.99 * error, 8.01 * error}}};
+        cell.referenceHash = frame == 0 ? "00ff" : "01ff";
         cell.materials = {{{120, 0.02, 0.03, -0.01, 0.1, 0.75}, "chrome"}};
         cell.objects = makeObjects();
         cell.clusters = {{10, 20, 8, 4, 30, 0.5, "ball"}, {0, 0, 1, 1, 1, 0.125, "environment"}};
