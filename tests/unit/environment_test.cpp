@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <glm/geometric.hpp>
 
 #include "scenes/error.h"
@@ -182,18 +183,23 @@ TEST(ProjectAmbient, OfUniformRadiance_IsThatRadianceOnEverySide) {
     EXPECT_LT(maxDifference(shading::ambientRadiance(ambient, n), {0.3f, 2.0f, 5.0f}), 3e-6f);  // float rounding
 }
 
-TEST(ProjectAmbient, OfRadianceLinearInTheDirection_IsTheClosedForm) {
-  // Irradiance / pi of L = 1 + a.d on normal n: 1 + (2/3) a.n.
-  const glm::vec3 a(0.5f, -0.3f, 0.2f);
+// Of a grey environment, sampled at the texels of a cube of 64 x 64 texels a face.
+shading::Ambient ambientOf(const std::function<float(const glm::vec3& direction)>& radiance) {
   std::vector<ImageRgba> faces(6, ImageRgba(64, 64));
   for (int face = 0; face < 6; ++face)
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 64; ++x) {
         const glm::vec2 st = (2.0f * glm::vec2(x, y) + 1.0f) / 64.0f - 1.0f;
-        const glm::vec3 d = glm::normalize(shading::cubeDirection(face, st));
-        faces[static_cast<std::size_t>(face)](x, y) = glm::vec4(1.0f + glm::dot(a, d));
+        faces[static_cast<std::size_t>(face)](x, y) =
+            glm::vec4(radiance(glm::normalize(shading::cubeDirection(face, st))));
       }
-  const shading::Ambient ambient = projectAmbient(faces);
+  return projectAmbient(faces);
+}
+
+TEST(ProjectAmbient, OfRadianceLinearInTheDirection_IsTheClosedForm) {
+  // Irradiance / pi of L = 1 + a.d on normal n: 1 + (2/3) a.n.
+  const glm::vec3 a(0.5f, -0.3f, 0.2f);
+  const shading::Ambient ambient = ambientOf([&](const glm::vec3& d) { return 1.0f + glm::dot(a, d); });
   // The midpoint rule's error falls with n^2; measured 2.4e-5 for 64 texels, four times that for 32.
   for (const glm::vec3& n : someDirections())
     EXPECT_NEAR(shading::ambientRadiance(ambient, n).x, 1.0f + 2.0f / 3.0f * glm::dot(a, n), 1e-4f);
@@ -201,15 +207,8 @@ TEST(ProjectAmbient, OfRadianceLinearInTheDirection_IsTheClosedForm) {
 
 TEST(ProjectAmbient, OfABandTwoHarmonic_IsAQuarterOfIt) {
   // A_2 / pi = 1/4 (Ramamoorthi and Hanrahan 2001, eq. 8), so L = 2 + xy + (3 z^2 - 1) gives 2 + (xy + 3 z^2 - 1) / 4.
-  std::vector<ImageRgba> faces(6, ImageRgba(64, 64));
-  for (int face = 0; face < 6; ++face)
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) {
-        const glm::vec2 st = (2.0f * glm::vec2(x, y) + 1.0f) / 64.0f - 1.0f;
-        const glm::vec3 d = glm::normalize(shading::cubeDirection(face, st));
-        faces[static_cast<std::size_t>(face)](x, y) = glm::vec4(2.0f + d.x * d.y + 3.0f * d.z * d.z - 1.0f);
-      }
-  const shading::Ambient ambient = projectAmbient(faces);
+  const shading::Ambient ambient =
+      ambientOf([](const glm::vec3& d) { return 2.0f + d.x * d.y + 3.0f * d.z * d.z - 1.0f; });
   for (const glm::vec3& n : someDirections())
     EXPECT_NEAR(shading::ambientRadiance(ambient, n).x, 2.0f + 0.25f * (n.x * n.y + 3.0f * n.z * n.z - 1.0f), 3e-4f);
 }

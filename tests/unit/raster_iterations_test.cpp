@@ -286,14 +286,20 @@ TEST_P(RasterIterations, OneIterationCostsTheSame) {
   EXPECT_EQ(bruteForce.renderFrame(*snapshot, true).counters, incremental.renderFrame(*snapshot, true).counters);
 }
 
-// One metre wide and two metres before a view whose rays spread by 45 degrees: a quarter of the width on each side of
-// the middle, at the near side two metres away.
-TEST(TexelRect, HoldsTheBoxAndAMargin) {
+// From the origin, 90 degrees wide and high.
+shading::View viewAlongMinusZ() {
   shading::View view;
   view.origin = {0.0f, 0.0f, 0.0f, 0.1f};
   view.forward = {0.0f, 0.0f, -1.0f, 0.0f};
   view.right = {1.0f, 0.0f, 0.0f, 0.0f};
   view.down = {0.0f, -1.0f, 0.0f, 0.0f};
+  return view;
+}
+
+// One metre wide and two metres before a view whose rays spread by 45 degrees: a quarter of the width on each side of
+// the middle, at the near side two metres away.
+TEST(TexelRect, HoldsTheBoxAndAMargin) {
+  const shading::View view = viewAlongMinusZ();
   const Bounds box = {vec3(-0.5f, 0.0f, -3.0f), vec3(0.5f, 0.5f, -2.0f)};
   EXPECT_EQ(texelsShowing(box, view, 64), (TexelRect{23, 23, 41, 33}));
   const Bounds around = {vec3(-1.0f), vec3(1.0f)};
@@ -303,11 +309,7 @@ TEST(TexelRect, HoldsTheBoxAndAMargin) {
 // Half a metre beside the view and two metres ahead, a quarter of the half width from the middle; what is as near as
 // the near plane is out of sight to all sides.
 TEST(TexelRect, HoldsOnlyWhatIsBeforeTheNearPlane) {
-  shading::View view;
-  view.origin = {0.0f, 0.0f, 0.0f, 0.1f};
-  view.forward = {0.0f, 0.0f, -1.0f, 0.0f};
-  view.right = {1.0f, 0.0f, 0.0f, 0.0f};
-  view.down = {0.0f, -1.0f, 0.0f, 0.0f};
+  const shading::View view = viewAlongMinusZ();
   const Bounds beside = {vec3(0.5f, -0.25f, -2.0f), vec3(0.75f, 0.25f, 5.0f)};
   EXPECT_EQ(texelsShowing(beside, view, 64), (TexelRect{39, 0, 64, 64}));
   const Bounds ahead = {vec3(0.5f, -0.25f, -2.0f), vec3(0.75f, 0.25f, -1.0f)};
