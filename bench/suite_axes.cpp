@@ -8,15 +8,19 @@
 namespace pb {
 namespace {
 
+// A list of values, or "*" alone.
 GridAxis readGridAxis(const std::string& name, const toml::node& node, const std::string& file) {
   GridAxis axis{name, {}};
-  for (const toml::node& value : asArray(node, name, file)) {
-    std::string canonical =
-        atPlace(file, value, [&] { return canonicalAxisValue(name, scalarText(value, name, file)); });
-    if (std::ranges::find(axis.second, canonical) != axis.second.end())
-      throwInputError("{}: axis '{}' has the value {} twice", placeOf(file, value), name, canonical);
-    axis.second.push_back(std::move(canonical));
-  }
+  std::vector<std::string>& values = axis.second;
+  const auto add = [&](const toml::node& value) {
+    atPlace(file, value, [&] { appendAxisValues(name, scalarText(value, name, file), values); });
+    if (std::ranges::count(values, values.back()) > 1)
+      throwInputError("{}: axis '{}' has the value {} twice", placeOf(file, value), name, values.back());
+  };
+  if (node.value<std::string>() == "*")
+    add(node);
+  else
+    for (const toml::node& value : asArray(node, name, file)) add(value);
   if (axis.second.empty()) throwInputError("{}: axis '{}' has no values", placeOf(file, node), name);
   return axis;
 }

@@ -65,6 +65,13 @@ TEST(AxisValues, SeveralValues_AreSplitAtCommas) {
   EXPECT_THAT(values, testing::ElementsAre("static", "faces?k=2"));
 }
 
+TEST(AxisValues, OfEveryAxisWithNames_AreTheirDefaultsForAnAsterisk) {
+  for (const Axis& axis : axisTable())
+    if (!axis.names.empty()) {
+      EXPECT_EQ(parseAxisValues(axis.name + "=*").second, axis.names);
+    }
+}
+
 TEST(AxisValues, WithoutEqualsSignOrValue_AreRefused) {
   for (const char* bad : {"resolution", "=64", "resolution=", "resolution=64,", "resolution=64,,128"})
     EXPECT_NE(messageOf([&] { parseAxisValues(bad); }), "no error") << bad;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/axes.h"
 #include "tests/error_message.h"
 
 namespace pb {
@@ -128,6 +129,20 @@ TEST(Suite, Variations_AreOneTableOrSeveralWithSettingsOfTheirOwn) {
   EXPECT_NE(canonicalText(one), canonicalText(two));
 }
 
+TEST(Suite, Asterisk_StandsForEveryNameThatTheListDoesNotHaveBeforeIt) {
+  const Suite suite = parse(std::string(kHead) + kScene +
+                            "vary = { lookup = \"*\", faces = [\"*\"] }\n"
+                            "[grid]\nrefresh = [\"static\", \"every-n?n=3\", \"*\"]\nmips = [\"on\", \"*\"]\n");
+  const Variation& vary = suite.scenes[0].vary[0];
+  EXPECT_THAT(vary.values, ElementsAre(GridAxis{"lookup", axisNamed("lookup").names},
+                                       GridAxis{"faces", {"all", "no-top-bottom", "top-half"}}));
+  ASSERT_EQ(suite.grid.size(), 2U);
+  EXPECT_THAT(suite.grid[0].second, testing::IsSupersetOf({"static", "every-n?n=3", "every-frame", "on-change"}));
+  EXPECT_THAT(suite.grid[0].second, testing::Not(testing::Contains("every-n")));
+  EXPECT_EQ(suite.grid[0].second.size(), axisNamed("refresh").names.size());
+  EXPECT_THAT(suite.grid[1].second, ElementsAre("on", "off"));
+}
+
 struct BadSuite {
   const char* text;  // after the two lines of kHead
   const char* message;
@@ -195,6 +210,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "suites/s.toml:7: axis 'resolution' wants powers of two from 8 to 4096, got 100"},
         BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolution = [64, 64]",
                  "suites/s.toml:6: axis 'resolution' has the value 64 twice"},
+        BadSuite{
+            "[[scene]]\nuse = \"x\"\n[grid]\nresolution = [64, \"*\"]",
+            "suites/s.toml:6: '*' stands for an axis's names, axis 'resolution' wants powers of two from 8 to 4096"},
+        BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nmips = [\"*\", \"on\"]",
+                 "suites/s.toml:6: axis 'mips' has the value on twice"},
         BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolution = []", "suites/s.toml:6: axis 'resolution' has no values"},
         BadSuite{"[[scene]]\nuse = \"x\"\n[grid]\nresolution = 64",
                  "suites/s.toml:6: 'resolution' wants a list [ ... ]"},
