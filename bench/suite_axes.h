@@ -21,8 +21,8 @@ struct Variation {
   friend bool operator==(const Variation&, const Variation&) = default;
 };
 
-// All throw input Errors with file and line. Axes are in the order of the axis table. "*" in a list of values, or in its
-// place, stands for every name of the axis that doesn't stand before it.
+// All throw input Errors with file and line. Axes are in the order of the axis table. "*" in a list of values, or in
+// its place, stands for every name of the axis that doesn't stand before it.
 Technique readTechnique(TomlReader& suite);
 std::vector<GridAxis> readAxes(TomlReader& owner, std::string_view key);
 
