@@ -18,21 +18,8 @@
 
 namespace pb {
 
-// Frames of a block: whole refresh cycles that cover at least `measuredFrames` (those of the suite, so that a moving
-// scene is measured while it moves), limited so that slow policies stay measurable.
-inline constexpr int kMaxBlockFrames = 120;
-int blockFrames(const Technique& technique, int probes, int measuredFrames);
-
 // Quantiles (bench/statistics.h) of the times of single frames: what amortised refresh is about.
 CostPeaks peaksOf(std::span<const double> frameMs);
-
-// The cost model: renders of the scene per frame, 1 + B * scheduled faces, mean over `frames` after the first of
-// `snapshots` was captured completely.
-struct RenderCount {
-  double perFrame = 0;
-  std::string formula;  // "6*N*B+1 = 31" or "1+B*faces = 4"
-};
-RenderCount modelRenders(const Technique& technique, const std::vector<std::shared_ptr<const Snapshot>>& snapshots);
 
 struct CostRequest {
   std::string name;  // of the benchmark

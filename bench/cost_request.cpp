@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/cost_model.h"
 #include "raster/probe_layout.h"
 
 namespace pb {

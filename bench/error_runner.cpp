@@ -1,16 +1,13 @@
 #include "bench/error_runner.h"
 
-#include <tbb/task_group.h>
-
 #include <algorithm>
 #include <map>
-#include <mutex>
-#include <numeric>
 #include <set>
 
 #include "bench/axes.h"
 #include "bench/bounce_depth.h"
 #include "bench/capture_groups.h"
+#include "bench/cell_finisher.h"
 #include "bench/external.h"
 #include "bench/integrity.h"
 #include "bench/interrupt.h"
@@ -26,22 +23,6 @@ namespace pb {
 namespace {
 
 constexpr int kMaxWaitingTasks = 8;  // of scoring, with their pictures
-
-std::vector<std::pair<std::string, std::int64_t>> namedCounters(const FrameStats& stats) {
-  const FrameCounters& counters = stats.counters;
-  const std::vector<int>& ofProbes = stats.coats.ofProbes;
-  const std::vector<int>& mirrors = stats.mirrors.ofProbes;
-  return {{"faces_captured", counters.facesCaptured},
-          {"draws", counters.draws},
-          {"triangles", counters.triangles},
-          {"fragments", counters.fragments},
-          {"probe_bytes", counters.probeBytes},
-          {"texels_filtered", counters.texelsFiltered},
-          {"coats_from_probe", std::accumulate(ofProbes.begin(), ofProbes.end(), std::int64_t{0})},
-          {"coats_from_environment", stats.coats.fromEnvironment},
-          {"mirrors_from_probe", std::accumulate(mirrors.begin(), mirrors.end(), std::int64_t{0})},
-          {"mirrors_from_environment", stats.mirrors.fromEnvironment}};
-}
 
 // A sequence of which frames are open, and where it is.
 struct OpenSequence {
@@ -65,7 +46,7 @@ struct EqualPictures {
 class ErrorRunner {
  public:
   ErrorRunner(const RunContext& context, FinishedCells& finished)
-      : c_(context), names_(context.suite, context.scenes), finished_(finished) {}
+      : c_(context), names_(context.suite, context.scenes), finisher_(context, finished) {}
 
   SkippedExternals run() {
     for (std::size_t scene = 0; scene < c_.suite.scenes.size(); ++scene) measureScene(scene);
@@ -84,15 +65,10 @@ class ErrorRunner {
     return makeSnapshot(c_.scenes[scene], std::max(frame, 0), suiteScene(scene).camera, c_.suite.image.aspect());
   }
 
-  bool isFinished(const PlannedSequence& sequence, int frame) {
-    const std::lock_guard lock(mutex_);
-    return finished_.contains(makeCell(c_.suite, sequence, frame).key());
-  }
-
   std::vector<int> openFrames(const PlannedSequence& sequence) {
     std::vector<int> open;
     std::ranges::copy_if(sequence.frames, std::back_inserter(open),
-                         [&](int frame) { return !isFinished(sequence, frame); });
+                         [&](int frame) { return !finisher_.isFinished(sequence, frame); });
     return open;
   }
 
@@ -195,17 +171,17 @@ class ErrorRunner {
     for (int frame = suiteScene(sequence.scene).startFrame(); frame <= open.back(); ++frame)
       request.frames.push_back({frame, std::ranges::binary_search(read, frame), snapshot(sequence.scene, frame)});
     std::optional<RenderedFrame> before;
-    const ExternalOutcome outcome =
-        runExternal(request, [&](int frame, Image picture, const std::optional<ReportedCost>& cost) {
-          const RenderedFrame shown{std::make_shared<const Image>(std::move(picture)), truths.at(frame), frame};
-          const std::optional<RenderedFrame> shownBefore = std::exchange(before, shown);
-          if (!std::ranges::binary_search(open, frame)) return;
-          CellResult cell = makeCell(c_.suite, sequence, frame);
-          cell.reportedCost = cost;
-          queue.run([this, &sequence, cell = std::move(cell), shown, shownBefore] {
-            finishCell(sequence, cell, scorePicture(*shown.truth, *shown.image, std::nullopt), shown, shownBefore);
-          });
-        });
+    const ExternalOutcome outcome = runExternal(request, [&](int frame, Image picture,
+                                                             const std::optional<ReportedCost>& cost) {
+      const RenderedFrame shown{std::make_shared<const Image>(std::move(picture)), truths.at(frame), frame};
+      const std::optional<RenderedFrame> shownBefore = std::exchange(before, shown);
+      if (!std::ranges::binary_search(open, frame)) return;
+      CellResult cell = makeCell(c_.suite, sequence, frame);
+      cell.reportedCost = cost;
+      queue.run([this, &sequence, cell = std::move(cell), shown, shownBefore] {
+        finisher_.finish(sequence, cell, scorePicture(*shown.truth, *shown.image, std::nullopt), shown, shownBefore);
+      });
+    });
     const std::string what = fmt::format("external {} on {}", technique.name, suiteScene(sequence.scene).name);
     if (!outcome.messages.empty()) c_.progress.message(fmt::format("{}: {}", what, outcome.messages));
     if (!outcome.skipped) return;
@@ -280,9 +256,7 @@ class ErrorRunner {
       if (!isMeasured) continue;
       if (same == distinct.end()) same = distinct.insert(same, {std::move(shown), depth, {}});
       CellResult cell = makeCell(c_.suite, planned, frame);
-      cell.counters = namedCounters(stats);
-      cell.faceAgeFrames = stats.faceAgeFrames;
-      cell.coatsOfProbes = stats.coats.ofProbes;
+      fillIn(stats, cell);
       if (frame == planned.frames.back()) {
         if (!integrity)  // of maps that they share
           integrity =
@@ -297,42 +271,14 @@ class ErrorRunner {
   void finishCells(const EqualPictures& pictures) {
     const RenderedFrame& shown = pictures.shown;
     const PictureScores scores = scorePicture(*shown.truth, *shown.image, pictures.depth);
-    for (const EqualPictures::Use& use : pictures.uses) finishCell(use.sequence, use.cell, scores, shown, use.before);
-  }
-
-  // `cell` has what does not come from the picture.
-  void finishCell(const PlannedSequence& sequence, CellResult cell, const PictureScores& scores,
-                  const RenderedFrame& shown, const std::optional<RenderedFrame>& before) {
-    fillIn(scores, {shown, before, sequence.technique}, cell);
-    cell.pictures.reference = imagePath(names_.ofReference(sequence.scene, cell.frame));
-    if (c_.suite.pictures.everyFrame || cell.frame == sequence.frames.back())
-      writeImages(sequence, cell, *shown.image, scores.errors.flipHdrMap);
-    c_.directory.append(cell);
-    const std::lock_guard lock(mutex_);
-    finished_.emplace(cell.key(), std::move(cell));
-    c_.progress.step();
-  }
-
-  // The last frame of a sequence shows its whole history; where the others are not kept, they come from `probebench
-  // render --frame`.
-  void writeImages(const PlannedSequence& sequence, CellResult& cell, const Image& image, const Plane& flipMap) const {
-    const std::string name = names_.ofFrame(sequence, cell.frame);
-    cell.pictures.rendered = imagePath(name + ".exr");
-    cell.pictures.flip = imagePath(name + "-flip.png");
-    writeExr((c_.directory.folder() / cell.pictures.rendered).string(), image);
-    writePngEncoded((c_.directory.folder() / cell.pictures.flip).string(), magma(flipMap));
-  }
-
-  // As it stands in results: relative to the run's folder.
-  std::string imagePath(const std::string& name) const {
-    return (c_.directory.imagesFolder().filename() / name).generic_string();
+    for (const EqualPictures::Use& use : pictures.uses)
+      finisher_.finish(use.sequence, use.cell, scores, shown, use.before);
   }
 
   const RunContext& c_;
   const PictureNames names_;
   IntegrityMeter integrity_;
-  std::mutex mutex_;
-  FinishedCells& finished_;
+  CellFinisher finisher_;
   std::map<const PlannedSequence*, std::vector<int>> depths_;  // from the sequence's first frame on: BounceDepth
   SkippedExternals skipped_;
 };

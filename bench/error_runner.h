@@ -2,14 +2,10 @@
 // beside it. Sequences with equal captures are rendered together, equal pictures of a frame are scored once.
 #pragma once
 
-#include <map>
-#include <string>
-
+#include "bench/cell_finisher.h"
 #include "bench/runner.h"
 
 namespace pb {
-
-using FinishedCells = std::map<std::string, CellResult>;  // by key
 
 // Measures what is not finished and adds it to `finished` and to the run's journal. Returns the external techniques
 // that were skipped.

@@ -88,6 +88,14 @@ void setNoise(CellResult& cell, MetricReplicates whole, MetricReplicates masked,
   cell.maskReplicates = std::move(masked);
 }
 
+// By picture: the first one that is equal in every bit.
+std::vector<std::size_t> firstEqual(const std::vector<Image>& pictures) {
+  std::vector<std::size_t> first;
+  for (const Image& picture : pictures)
+    first.push_back(static_cast<std::size_t>(std::ranges::find(pictures, picture) - pictures.begin()));
+  return first;
+}
+
 class IntervalRunner {
  public:
   IntervalRunner(const RunContext& context, bool rescores) : c_(context), rescores_(rescores) {}
@@ -164,6 +172,7 @@ class IntervalRunner {
     for (std::size_t i = 0; i < group.size(); ++i) pictures[i] = rgbOf(readImage(pictureOf(*group[i]).string()).pixels);
     if (rescores_)
       for (std::size_t i = 0; i < group.size(); ++i) rescore(truth, pictures[i], *group[i]);
+    const std::vector<std::size_t> first = firstEqual(pictures);  // which has the scores of them all
     std::vector<Replicates> whole(group.size()), masked(group.size());
     const Image mean = reference.mean();
     const MetricsSettings display{.exposure = exposure, .clampForDisplay = true};
@@ -171,6 +180,7 @@ class IntervalRunner {
       throwIfInterrupted();
       const MetricsReference rest(leaveOneOut(mean, batch, reference.batches.size()), display);
       tbb::parallel_for(std::size_t{0}, group.size(), [&](std::size_t i) {
+        if (first[i] != i) return;
         const MetricsResult scores = rest.compare(pictures[i], mask.empty() ? nullptr : &mask);
         whole[i].add(scores.whole);
         if (scores.masked) masked[i].add(*scores.masked);
@@ -178,7 +188,7 @@ class IntervalRunner {
     }
     const std::string referenceHash = hashOf(reference.batches);
     for (std::size_t i = 0; i < group.size(); ++i) {
-      setNoise(*group[i], whole[i].byMetric(), masked[i].byMetric(), referenceHash);
+      setNoise(*group[i], whole[first[i]].byMetric(), masked[first[i]].byMetric(), referenceHash);
       c_.progress.step();
     }
   }

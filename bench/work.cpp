@@ -7,7 +7,7 @@
 #include "bench/attribution_steps.h"
 #include "bench/bounce_depth.h"
 #include "bench/capture_groups.h"
-#include "bench/cost.h"
+#include "bench/cost_model.h"
 #include "bench/oracle.h"
 #include "bench/truth.h"
 #include "raster/captured_faces.h"

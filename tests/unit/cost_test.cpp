@@ -1,4 +1,5 @@
 #include "bench/cost.h"
+#include "bench/cost_model.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
