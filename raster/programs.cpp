@@ -86,7 +86,7 @@ std::string withDefines(const std::string& shader, const std::string& defines) {
   return shader.substr(0, secondLine) + defines + shader.substr(secondLine);
 }
 
-// At the end; the driver counts its lines from 1 and calls it source 1 in messages.
+// At the end; the driver's messages count its lines from 1 again.
 std::string withCode(const std::string& shader, std::string_view code) {
   return code.empty() ? shader : fmt::format("{}#line 1 1\n{}", shader, code);
 }
