@@ -10,6 +10,7 @@
 #include <set>
 
 #include "bench/differences.h"
+#include "bench/report/circumstances.h"
 #include "bench/report_verdict.h"
 #include "bench/sections.h"
 #include "bench/tables.h"
@@ -125,19 +126,10 @@ Json intervalToJson(const std::optional<Interval>& interval) {
 
 // --- Which cells are the same
 
-using Values = std::map<std::string, std::set<std::string>>;  // axis -> values
-
-Values valuesOf(const Results& results) {
-  Values values;
-  for (const CellResult& cell : results.cells)
-    for (const auto& [axis, value] : cell.technique) values[axis].insert(value);
-  return values;
-}
-
 std::set<std::string> varyingAxes(const Results& before, const Results& after) {
   std::set<std::string> varying = {kExternalAxis};  // which only some cells have
   for (const Results* run : {&before, &after})
-    for (const auto& [axis, values] : valuesOf(*run))
+    for (const auto& [axis, values] : valuesByAxis(*run))
       if (values.size() > 1) varying.insert(axis);
   return varying;
 }
@@ -214,37 +206,6 @@ Table changeTable(const Comparison& comparison, const Results& after, const Axis
                           formatSignificant(row.value->before), formatSignificant(row.value->after),
                           differenceText(*row.value), percentText(*row.value), nameOf(row.value->change)});
   return table;
-}
-
-using Circumstances = std::map<std::string, std::string>;
-
-Circumstances circumstancesOf(const Results& results) {
-  const Provenance& p = results.provenance;
-  Circumstances all = {{"probebench", fmt::format("{} ({})", p.toolVersion, p.gitHash)},
-                       {"suite", fmt::format("{} ({})", p.suiteName, p.suiteHash)},
-                       {"CPU", fmt::format("{}, {} threads", p.cpu, p.threads)},
-                       {"GL", fmt::format("{}: {}, {}", p.glBackend, p.glRenderer, p.glVersion)}};
-  for (const auto& [name, value] : p.settings) all[name] = value;
-  for (const auto& [scene, hash] : p.sceneHashes) all["scene " + scene] = hash;
-  for (const auto& [name, version] : p.libraries) all[name] = version;
-  for (const auto& [axis, values] : valuesOf(results))
-    if (values.size() == 1) all["axis " + axis] = *values.begin();
-  return all;
-}
-
-std::string circumstancesText(const Results& before, const Results& after) {
-  const Circumstances a = circumstancesOf(before), b = circumstancesOf(after);
-  Circumstances names = a;
-  names.insert(b.begin(), b.end());
-  Table table{{{"circumstance", Align::left}, {"before", Align::left}, {"after", Align::left}}, {}};
-  const auto text = [](const Circumstances& of, const std::string& name) {
-    const auto found = of.find(name);
-    return found == of.end() ? std::string("-") : found->second;
-  };
-  for (const auto& [name, value] : names)
-    if (text(a, name) != text(b, name)) table.rows.push_back({name, text(a, name), text(b, name)});
-  if (table.rows.empty()) return "Circumstances are the same.\n";
-  return "Circumstances that differ:\n\n" + toMarkdown(table);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "bench/report/brief.h"
 #include "bench/report/comparison.h"
+#include "bench/report/orders.h"
 
 namespace pb {
 namespace {
@@ -40,6 +41,40 @@ TEST(Comparison, IntervalsThatOverlap_AreNoChange) {
   EXPECT_EQ(changeOf(before, makeCell("64", 1.15, Interval{1.05, 1.25})), Change::equal);
   EXPECT_EQ(changeOf(before, makeCell("64", 1.3, Interval{1.2, 1.4})), Change::worse);
   EXPECT_EQ(changeOf(before, makeCell("64", 0.7, Interval{0.6, 0.8})), Change::better);
+}
+
+// Values against the same reference without each of its two batches: they go up and down together.
+CellResult againstReference(const std::string& hash, const std::string& resolution, double error) {
+  CellResult cell = makeCell(resolution, error, Interval{error - 0.5, error + 0.5});
+  cell.replicates = {{"relmse", {error - 0.04, error + 0.04}}};
+  cell.referenceHash = hash;
+  return cell;
+}
+
+TEST(Comparison, AgainstTheSameReference_IsPaired) {
+  const CellResult before = againstReference("same", "64", 1.0), after = againstReference("same", "64", 1.125);
+  const Comparison comparison = compareRuns(makeRun({before}), makeRun({after}));
+  const ComparedValue& value = valueOf(comparison.cells.at(0), "relmse");
+  EXPECT_EQ(value.change, Change::worse);
+  ASSERT_TRUE(value.differenceInterval.has_value());
+  EXPECT_NEAR(value.differenceInterval->low, 0.125, 1e-12);  // the noise is all in common
+  EXPECT_EQ(changeOf(before, againstReference("another", "64", 1.125)), Change::equal);
+}
+
+// The page's Pareto front asks for it.
+TEST(Orders, SayWhichTechniquesAreBetterForSure) {
+  const std::vector<CellResult> cells = {againstReference("same", "64", 1.0), againstReference("same", "128", 1.125),
+                                         againstReference("another", "256", 1.25)};
+  const Json orders = ordersToJson(cells);
+  ASSERT_EQ(orders.size(), 1u);
+  EXPECT_EQ(orders[0]["metric"], "relmse");
+  EXPECT_EQ(orders[0]["region"], "whole");
+  EXPECT_EQ(orders[0]["cells"], Json::array({0, 1, 2}));
+  EXPECT_EQ(orders[0]["better"], Json::array({"010", "000", "000"}));
+}
+
+TEST(Orders, WithoutNoise_AreThoseOfTheValues) {
+  EXPECT_TRUE(ordersToJson({makeCell("64", 1.0, Interval{1, 1}), makeCell("128", 2.0, Interval{2, 2})}).empty());
 }
 
 TEST(Comparison, WithoutIntervals_ADifferenceHasNoVerdict) {
