@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/results.h"
+#include "bench/verdict.h"
 #include "scenes/files.h"
 #include "tests/cli/workplace.h"
 
@@ -75,6 +77,38 @@ TEST(UntilDecided, WithoutNoise_IsDecidedAtOnce) {
   const ProgramResult run = workplace.run("out", {"--no-cost", "--until-decided", "--budget-s", "1"});
   EXPECT_EQ(run.exitCode, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("all 1 pairs of cells are decided"));
+}
+
+// Two batches leave one degree of freedom: three lookups are not told apart by them.
+constexpr const char* kNoisy = R"(
+schema = 1
+name = "noisy"
+image = { size = [32, 18], samples = 1 }
+cost = { repetitions = 0 }
+reference = { spp = 2 }
+[[scene]]
+use = "builtin:metals?grid=2"
+[grid]
+resolution = [8]
+lookup = ["infinite", "sphere-proxy", "box-proxy"]
+)";
+
+TEST(UntilDecided, WhenTheBudgetEnds_KeepsTheResultsAndExitsWith4) {
+  const Workplace workplace(kNoisy);
+  const ProgramResult run = workplace.run("out", {"--until-decided", "--budget-s", "0.001"});
+  EXPECT_EQ(run.exitCode, 4) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("more samples would take longer than the budget"));
+  const Results results = readResults(workplace.path("out"));
+  EXPECT_GT(rankingState(results.cells, "flip_hdr").undecided, 0u);
+  // What verdicts come from is kept, also by merge.
+  ASSERT_EQ(runProgram({"merge", workplace.path("out"), "-o", workplace.path("merged")}).exitCode, 0);
+  const Results merged = readResults(workplace.path("merged"));
+  ASSERT_EQ(merged.cells.size(), 3u);
+  for (std::size_t i = 0; i < merged.cells.size(); ++i) {
+    EXPECT_EQ(merged.cells[i].maskReplicates.size(), 5u);
+    EXPECT_EQ(merged.cells[i].maskReplicates, results.cells[i].maskReplicates);
+    EXPECT_EQ(merged.cells[i].referenceHash, merged.cells[0].referenceHash);
+  }
 }
 
 }  // namespace
