@@ -110,7 +110,7 @@ void BounceIterations::drawProbe(const std::vector<ProbeFace>& faces, Run& run) 
     const ProbeFace& f = faces[i];
     const bool isRecorded = redoOf(f) == Redo::lookups;
     if (isRecorded) records_->beginCapture();
-    const RenderTarget target = isRecorded ? maps_.recordingTarget(f) : maps_.target(f);
+    const RenderTarget target = isRecorded ? maps_.recordingTarget(f, records_->mirrors(f.probe)) : maps_.target(f);
     scenePass_.draw(capturePass(f), target, shownProbes(f.probe, run), run.work.counters,
                     capturedPart(technique_, f.face), isRecorded ? &*records_ : nullptr);
     if (isRecorded) records_->endCapture(f, lookups[i], maps_.captured(f.probe));

@@ -14,7 +14,9 @@ constexpr std::int64_t kTexelBytes = 16;  // RGBA32F
 constexpr int kTargets = 3;
 // Of raster/shaders/lookup_records.glsl.
 constexpr std::int64_t kEntriesBytes = 12;
-int recordTexels(LookupRecord record) { return record == LookupRecord::mirror ? 1 : kTargets; }
+// Of a record that a list keeps: those of mirrors stay where they were drawn.
+int recordTexels(LookupRecord record) { return record == LookupRecord::mirror ? 0 : kTargets; }
+constexpr GLuint kMirrorTarget = kTargets + 1;
 // Groups are told apart by the alpha of captures: half floats hold integers exactly up to here.
 constexpr std::size_t kLargestGroup = 2048;
 constexpr int kCollectColumns = 8, kCollectRows = 64;  // of a work group of collect_lookups.comp
@@ -23,6 +25,7 @@ constexpr int kCollectColumns = 8, kCollectRows = 64;  // of a work group of col
 constexpr std::int64_t kRegionAlignment = 64;
 
 std::int64_t targetBytes(int resolution) { return kTargets * kTexelBytes * resolution * resolution; }
+std::int64_t mirrorBytes(int resolution) { return 6 * kTexelBytes * resolution * resolution; }
 
 // A share that leaves room for maps, textures and the image.
 std::int64_t allowedBytes(const DeviceLimits& limits) { return limits.bytes / 4; }
@@ -98,6 +101,7 @@ bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) 
     recordBytes += room * bytesEach;
   }
   const std::int64_t entryBytes = entries * kEntriesBytes;
+  if (!reserveMirrors(captured, texels)) return false;
   if (recordBytes <= captured.recordBytes && entryBytes <= captured.entryBytes) return true;
   recordBytes = std::max(recordBytes, captured.recordBytes);
   const std::int64_t allEntryBytes = std::max(entryBytes, captured.entryBytes);
@@ -106,26 +110,43 @@ bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) 
   captured.entries = gl::Buffer();
   captured.recordBytes = recordBytes;
   captured.entryBytes = allEntryBytes;
-  captured.records = gl::Buffer(gl_, static_cast<std::size_t>(recordBytes));
+  if (recordBytes > 0) captured.records = gl::Buffer(gl_, static_cast<std::size_t>(recordBytes));
   captured.entries = gl::Buffer(gl_, static_cast<std::size_t>(allEntryBytes));
   return true;
 }
 
-// The first `targets` of them.
-void LookupRecords::writeTo(int targets) const {
-  for (int target = 1; target <= kTargets; ++target) {
-    const GLboolean mask = target <= targets ? GL_TRUE : GL_FALSE;
-    gl_.ColorMaski(static_cast<GLuint>(target), mask, mask, mask, mask);
+bool LookupRecords::reserveMirrors(Captured& captured, const std::vector<std::int64_t>& texels) const {
+  bool any = false;
+  for (std::size_t group = 0; group < texels.size(); ++group)
+    any = any || (texels[group] > 0 && groups_[group].record() == LookupRecord::mirror);
+  if (!any || captured.mirrors.id() != 0) return true;
+  if (bytes() + mirrorBytes(resolution_) > allowedBytes_) return false;
+  captured.mirrors = gl::makeTexture(
+      gl_,
+      {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = resolution_, .height = resolution_, .layers = 6});
+  return true;
+}
+
+const gl::Texture* LookupRecords::mirrors(int probe) const {
+  const gl::Texture& texture = captured_[static_cast<std::size_t>(probe)].mirrors;
+  return texture.id() == 0 ? nullptr : &texture;
+}
+
+void LookupRecords::writeTo(bool mirrors, bool others) const {
+  for (GLuint target = 1; target <= kMirrorTarget; ++target) {
+    const GLboolean mask = (target == kMirrorTarget ? mirrors : others) ? GL_TRUE : GL_FALSE;
+    gl_.ColorMaski(target, mask, mask, mask, mask);
   }
 }
 
 void LookupRecords::markDraw(GLuint program, int group, MapState map) const {
-  writeTo(recordTexels(groups_[static_cast<std::size_t>(group)].record()));
+  const bool isMirror = groups_[static_cast<std::size_t>(group)].record() == LookupRecord::mirror;
+  writeTo(isMirror, !isMirror);
   gl_.ProgramUniform2f(program, 0, static_cast<float>(1 + group), static_cast<float>(map));
 }
 
 void LookupRecords::endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture) const {
-  writeTo(kTargets);
+  writeTo(true, true);
   const Captured& captured = captured_[static_cast<std::size_t>(face.probe)];
   gl_.BindTextureUnit(gpu::kLookupCaptureUnit, capture.id());
   for (GLuint i = 0; i < kTargets; ++i) gl_.BindTextureUnit(gpu::kLookupTargetUnit + i, targets_[i].id());
@@ -157,7 +178,10 @@ void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<M
     gl_.UseProgram(programsOf(groups_[group]).repeat);
     bind(captured, group, GL_READ_ONLY);
     maps.bind(groups_[group].probe);
-    if (groups_[group].record() == LookupRecord::mirror) bindMirror(groups_[group]);
+    if (groups_[group].record() == LookupRecord::mirror) {
+      bindMirror(groups_[group]);
+      gl_.BindTextureUnit(gpu::kLookupTargetUnit, captured.mirrors.id());
+    }
     gl_.Uniform3ui(0, static_cast<GLuint>(list), next, static_cast<GLuint>(repetition));
     gl_.Uniform2f(1, largestRadiance, static_cast<float>(states[lookedUp]));
     gl_.DispatchComputeIndirect(static_cast<GLintptr>(list * sizeof(List)));
@@ -169,10 +193,11 @@ void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<M
 // The shaders see one region: all of a capture's records may be more than a block can hold.
 void LookupRecords::bind(const Captured& captured, std::size_t group, GLenum access) const {
   const Region& region = captured.regions[group];
-  const std::int64_t recordBytes = region.records * kTexelBytes * recordTexels(groups_[group].record());
-  gl_.TextureBufferRange(region_.id(), GL_RGBA32F, captured.records.id(), static_cast<GLintptr>(region.firstRecord),
-                         static_cast<GLsizeiptr>(recordBytes));
-  gl_.BindImageTexture(gpu::kLookupRecordImage, region_.id(), 0, GL_FALSE, 0, access, GL_RGBA32F);
+  if (groups_[group].record() == LookupRecord::general) {
+    gl_.TextureBufferRange(region_.id(), GL_RGBA32F, captured.records.id(), static_cast<GLintptr>(region.firstRecord),
+                           static_cast<GLsizeiptr>(region.records * kTexelBytes * kTargets));
+    gl_.BindImageTexture(gpu::kLookupRecordImage, region_.id(), 0, GL_FALSE, 0, access, GL_RGBA32F);
+  }
   gl_.BindBufferRange(GL_SHADER_STORAGE_BUFFER, gpu::kLookupEntryBlock, captured.entries.id(),
                       static_cast<GLintptr>(region.first * kEntriesBytes),
                       static_cast<GLsizeiptr>(region.records * kEntriesBytes));
@@ -181,7 +206,8 @@ void LookupRecords::bind(const Captured& captured, std::size_t group, GLenum acc
 
 std::int64_t LookupRecords::bytes() const {
   std::int64_t sum = targetBytes(resolution_);
-  for (const Captured& captured : captured_) sum += captured.recordBytes + captured.entryBytes;
+  for (const Captured& captured : captured_)
+    sum += captured.recordBytes + captured.entryBytes + (captured.mirrors.id() != 0 ? mirrorBytes(resolution_) : 0);
   return sum;
 }
 

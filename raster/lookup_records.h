@@ -58,6 +58,8 @@ class LookupRecords {
 
   // What recording surfaces are drawn to besides the colour; see scene.frag.
   std::array<const gl::Texture*, 3> targets() const { return {&targets_[0], &targets_[1], &targets_[2]}; }
+  // The same of mirrors, six layers; nullptr if the probe has none to record.
+  const gl::Texture* mirrors(int probe) const;
 
   // Forgets all records. groups: of this frame.
   void beginFrame(const std::vector<LookupGroup>& groups);
@@ -69,7 +71,7 @@ class LookupRecords {
   // (the state after beginCapture()).
   void beginCapture() const { skipDraw(); }
   void markDraw(GLuint program, int group, MapState map) const;
-  void skipDraw() const { writeTo(0); }
+  void skipDraw() const { writeTo(false, false); }
   void endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture) const;
 
   // Looks up what the probe's texels show of the others once more. states: by probe looked up. isLast: no other
@@ -91,6 +93,7 @@ class LookupRecords {
     std::int64_t recordBytes = 0, entryBytes = 0;
     gl::Buffer records;
     gl::Buffer entries;
+    gl::Texture mirrors;  // records of mirrors where they were drawn, a layer a face
     int repetitions = 0;  // in this frame
   };
   struct RecordPrograms {
@@ -99,10 +102,11 @@ class LookupRecords {
   // As in raster/shaders/lookup_records.glsl: work groups, then number of entries.
   using List = std::array<std::uint32_t, 4>;
 
+  bool reserveMirrors(Captured& captured, const std::vector<std::int64_t>& texels) const;
   std::size_t listOf(int repetition, int probe, std::size_t group) const;
   const RecordPrograms& programsOf(const LookupGroup& group) const;
   void bind(const Captured& captured, std::size_t group, GLenum access) const;
-  void writeTo(int targets) const;
+  void writeTo(bool mirrors, bool others) const;
 
   const gl::Functions& gl_;
   std::int64_t largestBlock_;    // bytes of a buffer that shaders see

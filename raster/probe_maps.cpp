@@ -100,11 +100,16 @@ void ProbeMaps::setFurtherColors(std::span<const gl::Texture* const> colors) {
     drawn.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawn.size()));
     gl_.NamedFramebufferTexture(recordingFramebuffer_.id(), drawn.back(), color->id(), 0);
   }
+  furtherColors_ = static_cast<GLenum>(colors.size());
+  drawn.push_back(GL_COLOR_ATTACHMENT0 + furtherColors_ + 1);
   gl_.NamedFramebufferDrawBuffers(recordingFramebuffer_.id(), static_cast<GLsizei>(drawn.size()), drawn.data());
 }
 
-RenderTarget ProbeMaps::recordingTarget(const ProbeFace& face) {
+RenderTarget ProbeMaps::recordingTarget(const ProbeFace& face, const gl::Texture* lastColor) {
   gl::setColorLayer(recordingFramebuffer_, mapOf(face.probe).captured(), face.face);
+  const GLenum attachment = GL_COLOR_ATTACHMENT0 + furtherColors_ + 1;
+  gl_.NamedFramebufferTextureLayer(recordingFramebuffer_.id(), attachment, lastColor == nullptr ? 0 : lastColor->id(),
+                                   0, lastColor == nullptr ? 0 : face.face);
   return {recordingFramebuffer_.id(), mapOf(face.probe).resolution, mapOf(face.probe).resolution};
 }
 

@@ -46,8 +46,9 @@ class ProbeMaps {
 
   // Attaches the face for capture, with a depth buffer that all faces share unless distances are kept.
   RenderTarget target(const ProbeFace& face);
-  // The same with further colours, textures of the maps' size, which were given before. Not for kept distances.
-  RenderTarget recordingTarget(const ProbeFace& face);
+  // The same with further colours, textures of the maps' size, which were given before, and after them the face's layer
+  // of one more if that isn't nullptr. Not for kept distances.
+  RenderTarget recordingTarget(const ProbeFace& face, const gl::Texture* lastColor);
   void setFurtherColors(std::span<const gl::Texture* const> colors);
   // The layers whose captures publish() makes visible.
   const gl::Texture& captured(int probe) const { return mapOf(probe).captured(); }
@@ -120,6 +121,7 @@ class ProbeMaps {
   gl::Texture depth_;
   gl::Framebuffer framebuffer_;
   gl::Framebuffer recordingFramebuffer_;
+  GLenum furtherColors_ = 0;  // how many
 };
 
 }  // namespace pb

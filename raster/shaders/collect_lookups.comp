@@ -11,8 +11,10 @@ const int kRows = 8;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = kLookupCaptureUnit) uniform sampler2DArray capture;
+#ifndef MIRROR_RECORDS
 layout(binding = kLookupTargetUnit) uniform sampler2D targets[kRecordTexels];
 layout(rgba32f, binding = kLookupRecordImage) writeonly uniform imageBuffer records;
+#endif
 // x y first texel, z w number of columns and rows
 layout(location = 0) uniform ivec4 area;
 // x face, y alpha of the texels, z the list
@@ -33,8 +35,10 @@ void main() {
   while (found != 0u) {
     ivec2 p = corner + ivec2(0, findLSB(found)) + area.xy;
     found &= found - 1u;
+#ifndef MIRROR_RECORDS
     for (int i = 0; i < kRecordTexels; ++i)
       imageStore(records, kRecordTexels * int(place) + i, texelFetch(targets[i], p, 0));
+#endif
     entries[3u * place] = uint(p.x) | (uint(p.y) << 14u) | (uint(job.x) << 28u);
     ++place;
   }

@@ -3,13 +3,10 @@
 // no particular order; what is bound is one region.
 //
 // Variant by a define: MIRROR_RECORDS for groups of mirrors that are everywhere the same, of which direction and cosine to
-// the viewer say all: rest and level are 0, and the weight follows from the material.
+// the viewer say all: rest and level are 0, and the weight follows from the material. These stay in the texture that they
+// were drawn to; lists of them are of texels alone.
 
-#ifdef MIRROR_RECORDS
-const int kRecordTexels = 1;  // direction and cosine
-#else
 const int kRecordTexels = 3;  // direction and level, weight, rest
-#endif
 
 // A list of the records of one region that a later bounce iteration has to look up. x y z: work groups that do, as
 // glDispatchComputeIndirect reads them; w: how many records are on it.

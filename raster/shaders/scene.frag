@@ -46,7 +46,7 @@ layout(location = 0) out vec4 radiance;
 #include "raster/shaders/settled.glsl"
 layout(location = 0) uniform vec2 lookupGroup;  // y: how much of the map is settled
 #ifdef MIRROR_RECORDS
-layout(location = 1) out vec4 directionAndCosine;
+layout(location = 4) out vec4 directionAndCosine;
 #else
 layout(location = 1) out vec4 directionAndLod;
 layout(location = 2) out vec4 weight;
