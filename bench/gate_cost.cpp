@@ -112,6 +112,18 @@ class CostComparison {
           "the second measurement must be made on the same driver and CPU with as many threads, it is of '{}'"
           " on '{}' with {}",
           second.glRenderer, second.cpu, second.threads);
+    requireNewRepetitions(rerun);
+  }
+
+  // Two measurements never agree in every bit of so many times: that would be the first one once more.
+  void requireNewRepetitions(const Results& rerun) const {
+    for (const auto& [sequence, second] : costsOf(rerun)) {
+      const auto first = costs_.find(sequence);
+      if (first == costs_.end() || second->ratios.size() < kFewestRepetitions) continue;
+      if (first->second->ratios == second->ratios)
+        throwInputError("the second measurement must be another one, the repetitions of {} are those of the first",
+                        sequence);
+    }
   }
 
   // Why ratios of run and baseline can't be compared; empty if they can.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bench/counted.h"
 #include "bench/gate.h"
 #include "bench/gate_words.h"
 #include "bench/json_document.h"
@@ -47,10 +48,11 @@ std::string findingsTable(const GateReport& report) {
 
 std::string summaryLine(const GateReport& report) {
   const std::size_t warnings = report.count(Level::warn);
-  const std::string warned = warnings > 0 ? fmt::format(", {} warnings", warnings) : "";
-  return fmt::format("{}: {} cells, {} differences{}; {} metrics, {} counters and {} costs compared\n",
-                     nameOf(report.verdict), report.cells.size(), report.findings.size() - warnings, warned,
-                     report.metricsCompared, report.countersCompared, report.costsCompared);
+  const std::string warned = warnings > 0 ? ", " + counted(warnings, "warning") : "";
+  return fmt::format("{}: {}, {}{}; {}, {} and {} compared\n", nameOf(report.verdict),
+                     counted(report.cells.size(), "cell"), counted(report.findings.size() - warnings, "difference"),
+                     warned, counted(report.metricsCompared, "metric"), counted(report.countersCompared, "counter"),
+                     counted(report.costsCompared, "cost"));
 }
 
 Json encodeOptional(const std::optional<double>& value) { return value ? encodeNumber(*value) : nullptr; }

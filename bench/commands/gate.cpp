@@ -9,6 +9,7 @@
 #include "bench/commands/commands.h"
 #include "bench/remeasure.h"
 #include "bench/report.h"
+#include "bench/shell_word.h"
 #include "scenes/files.h"
 
 namespace pb {
@@ -38,7 +39,7 @@ int checkRun(const GateOptions& options, const GlobalOptions& globals) {
   const Results run = readResults(options.run);
   const GateReport report = checkAgain(options, run, readBaseline(options.baseline), globals);
   if (!options.junit.empty()) writeFileAtomically(options.junit, toJUnit(report, run.provenance.suiteName));
-  const std::string files = fmt::format("{} --baseline {}", options.run, options.baseline);
+  const std::string files = fmt::format("{} --baseline {}", shellWord(options.run), shellWord(options.baseline));
   const GateCommands commands{fmt::format("probebench bless {} --reason TEXT", files),
                               fmt::format("probebench check {} --rerun SUITE", files)};
   fmt::print("{}", options.json ? toJson(report) : printGateReport(report, commands));

@@ -128,6 +128,8 @@ TEST(Check, ConfirmsACostByASecondRun) {
   const ProgramResult alone = workplace.check();
   EXPECT_EQ(alone.exitCode, 4) << alone.out;
   EXPECT_THAT(alone.out, AllOf(HasSubstr("inconclusive"), HasSubstr("unconfirmed"), HasSubstr("--rerun SUITE")));
+  expectOneSentence(workplace.check({"--confirm", workplace.path("run")}), "must be another one");
+  for (CellResult& cell : run.cells) cell.cost = samples::makeCost(6.01);
   workplace.write("again", run);
   EXPECT_EQ(workplace.check({"--confirm", workplace.path("again")}).exitCode, 1);
   for (CellResult& cell : run.cells) cell.cost = samples::makeCost(3);

@@ -25,7 +25,8 @@ TEST_P(GateCostRule, GivesItsVerdict) {
   const CostRule& rule = GetParam();
   Results after = runWith(0.5, rule.after);
   after.cells[0].cost->plainMs = rule.plainMs;
-  const Results rerun = after;
+  Results rerun = after;
+  rerun.cells[0].cost->ratios[0] *= 1.001;  // another measurement, with the same medians
   EXPECT_EQ(check(after, baselineOf(runWith(0.5, rule.before)), {}, &rerun).verdict, rule.verdict);
 }
 
@@ -103,7 +104,7 @@ TEST_P(GateConfirmation, GivesItsVerdict) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, GateConfirmation,
-                         testing::Values(Confirmation{"the_same", 6.0, GateVerdict::fail},
+                         testing::Values(Confirmation{"as_slow", 6.01, GateVerdict::fail},
                                          Confirmation{"also_slower", 4.0, GateVerdict::fail},
                                          Confirmation{"as_before", 3.0, GateVerdict::pass},
                                          Confirmation{"within_the_floor", 3.6, GateVerdict::pass},
@@ -125,6 +126,14 @@ TEST(GateCost, SecondMeasurementOfAnotherProgramSuiteOrMachine_IsRefused) {
     rerun.provenance.*member = "other";
     EXPECT_THAT(messageOf([&] { check(run, baseline, {}, &rerun); }), HasSubstr("the second measurement must be"));
   }
+}
+
+TEST(GateCost, RunInPlaceOfASecondMeasurement_IsRefused) {
+  const Results run = runWith(0.5, 6.0);
+  Results copy = run;
+  copy.provenance.startedAt = "2027-01-01T00:00:00Z";  // a file that was edited is no measurement either
+  const std::string message = messageOf([&] { check(run, baselineOf(runWith(0.5, 3.0)), {}, &copy); });
+  EXPECT_THAT(message, HasSubstr("the second measurement must be another one, the repetitions of"));
 }
 
 // Logarithms of the repetitions have the standard deviation log(1.6) sqrt(4/5) = 0.42, means of six the error 0.172,

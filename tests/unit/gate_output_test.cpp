@@ -105,7 +105,7 @@ GateReport reportOfAllLevels() {
 
 TEST(GateOutput, Markdown_SaysHowToConfirmACost) {
   const std::string text = printGateReport(reportOfAllLevels(), {"BLESS", "probebench check RUN --rerun SUITE"});
-  EXPECT_THAT(text, AllOf(HasSubstr("fail: 1 cells, 2 differences, 1 warnings; "),
+  EXPECT_THAT(text, AllOf(HasSubstr("fail: 1 cell, 2 differences, 1 warning; "),
                           HasSubstr("a second measurement confirms it: probebench check RUN --rerun SUITE\n"),
                           HasSubstr("If this is as it should be: BLESS\n")));
 }
