@@ -16,7 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What runs do one after the other, in that order.
-constexpr const char* kKinds[] = {"control", "references", "errors", "intervals", "attribution", "cost"};
+constexpr const char* kDeciding = "deciding";
+constexpr const char* kKinds[] = {"control", kDeciding, "references", "errors", "intervals", "attribution", "cost"};
 
 }  // namespace
 
@@ -78,12 +79,17 @@ std::string printWork(const PlanWork& work, const Rates& rates) {
       work.captures, counted(work.blocks, "block"));
   std::map<std::string, double> seconds;
   std::set<std::string> unknown;
-  for (const auto& [kind, units] : work.units) {
-    const std::optional<double> rate = rates.secondsPerUnit(kind);
-    if (rate)
-      seconds[kind.first] += *rate * units;
+  const auto add = [&](const WorkKind& kind, double units, const std::string& name) {
+    if (const std::optional<double> rate = rates.secondsPerUnit(kind))
+      seconds[name] += *rate * units;
     else
-      unknown.insert(kind.first);
+      unknown.insert(name);
+  };
+  for (const auto& [kind, units] : work.units) add(kind, units, kind.first);
+  if (work.deciding) {
+    text += fmt::format("--until-decided renders {} beforehand, with {:.0f} captured faces\n",
+                        counted(work.deciding->frames, "raster frame"), work.deciding->captures);
+    for (const auto& [kind, units] : work.deciding->units) add(kind, units, kDeciding);
   }
   std::vector<std::string> known, missing;
   double total = 0;
@@ -99,7 +105,10 @@ std::string printWork(const PlanWork& work, const Rates& rates) {
   text += fmt::format("should take about {} ({}), by the rates of earlier runs", printDuration(total),
                       fmt::join(known, ", "));
   if (!missing.empty()) text += fmt::format("; no rates measured yet for {}", fmt::join(missing, ", "));
-  if (work.mayRefine && work.stored < work.references) text += "; max_noise may ask for more samples";
+  if (work.deciding)
+    text += "; --until-decided may ask for more samples";
+  else if (work.mayRefine && work.stored < work.references)
+    text += "; max_noise may ask for more samples";
   return text + '\n';
 }
 

@@ -21,8 +21,8 @@ constexpr const char* kJournal = "journal.jsonl";
 constexpr const char* kAttributionJournal = "attribution.jsonl";
 // What a run (and, for report.csv, `probebench report -o`) writes, and what it removes of an earlier one; nothing else
 // in the folder is touched.
-constexpr const char* kFiles[] = {kJournal,         kAttributionJournal, "results.json", "results.csv",
-                                  "benchmark.json", "report.md",         "report.csv",   "report.html"};
+constexpr const char* kFiles[] = {kJournal,    kAttributionJournal, "results.json", "results.csv", "benchmark.json",
+                                  "report.md", "report.csv",        "report.html",  "ranking.json"};
 constexpr const char* kImages = "images";
 constexpr const char* kFolders[] = {kImages, "report-pictures"};
 

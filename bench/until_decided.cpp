@@ -4,13 +4,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <nlohmann/json.hpp>
 
+#include "bench/counted.h"
 #include "bench/interval_runner.h"
+#include "scenes/error.h"
+#include "scenes/files.h"
 
 namespace pb {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr char kMetric[] = "flip_hdr";
+constexpr char kRankingFile[] = "ranking.json";
 constexpr double kStep = 4;  // in max_noise: half of an interval's width, for four times the samples
 // What samples can do is done when a step gains less than this.
 constexpr double kLeastGain = 0.9;
@@ -39,15 +46,27 @@ Suite trialSuite(const Suite& suite) {
 
 Plan trialPlan(const Plan& plan) {
   Plan trial = plan;
-  for (PlannedSequence& sequence : trial.sequences) sequence.frames = {sequence.frames.back()};
+  for (PlannedSequence& sequence : trial.sequences) {
+    sequence.frames = {sequence.frames.back()};
+    sequence.attributedFrames.clear();
+  }
   return trial;
 }
 
+// "1 of 66 pairs of cells is not decided at noise 6e-05".
+std::string openPairs(const Ranking& ranking) {
+  const auto& [pairs, undecided] = ranking.state;
+  return fmt::format("{} of {} of cells {} not decided at noise {:.3g}", undecided, counted(pairs, "pair"),
+                     undecided == 1 ? "is" : "are", ranking.noise);
+}
+
 std::string sentenceOf(const Ranking& ranking, const char* reason) {
-  if (ranking.isDecided())
-    return fmt::format("all {} pairs of cells are decided at noise {:.3g}", ranking.state.pairs, ranking.noise);
-  return fmt::format("{} of {} pairs of cells are not decided at noise {:.3g}: {}", ranking.state.undecided,
-                     ranking.state.pairs, ranking.noise, reason);
+  const auto& [pairs, undecided] = ranking.state;
+  if (pairs == 0) return "no two cells are to be told apart";
+  if (!ranking.isDecided()) return fmt::format("{}: {}", openPairs(ranking), reason);
+  return fmt::format("{} decided at noise {:.3g}",
+                     pairs == 1 ? "the only pair of cells is" : fmt::format("all {} pairs of cells are", pairs),
+                     ranking.noise);
 }
 
 }  // namespace
@@ -67,9 +86,7 @@ Ranking decideRanking(const RunContext& context, double budgetSeconds) {
     const Clock::time_point round = Clock::now();
     const double noise = ranking.noise;
     suite.reference.maxNoise = std::min(noise / kStep, suite.reference.maxNoise.value_or(noise));
-    context.progress.message(
-        fmt::format("{} of {} pairs of cells are not decided at noise {:.3g}: next max_noise {:.3g}",
-                    ranking.state.undecided, ranking.state.pairs, noise, *suite.reference.maxNoise));
+    context.progress.message(fmt::format("{}: next max_noise {:.3g}", openPairs(ranking), *suite.reference.maxNoise));
     rescore(trial, cells);
     ranking = {rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}};
     if (!ranking.isDecided() && ranking.noise >= kLeastGain * noise) {
@@ -80,6 +97,35 @@ Ranking decideRanking(const RunContext& context, double budgetSeconds) {
   }
   ranking.sentence = sentenceOf(ranking, reason);
   return ranking;
+}
+
+PlanWork computeDecidingWork(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store) {
+  return computeWork(trialSuite(suite), scenes, trialPlan(plan), store);
+}
+
+void writeRanking(const Ranking& ranking, const std::filesystem::path& folder) {
+  const Json json = {{"pairs", ranking.state.pairs},
+                     {"undecided", ranking.state.undecided},
+                     {"max_noise", ranking.maxNoise ? Json(*ranking.maxNoise) : Json()},
+                     {"noise", ranking.noise},
+                     {"sentence", ranking.sentence}};
+  writeFileAtomically((folder / kRankingFile).string(), json.dump(2) + "\n");
+}
+
+std::optional<Ranking> readRanking(const std::filesystem::path& folder) {
+  const std::string path = (folder / kRankingFile).string();
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    const Json json = Json::parse(readFile(path));
+    Ranking ranking;
+    ranking.state = {json.at("pairs").get<std::size_t>(), json.at("undecided").get<std::size_t>()};
+    if (!json.at("max_noise").is_null()) ranking.maxNoise = json.at("max_noise").get<double>();
+    ranking.noise = json.at("noise").get<double>();
+    ranking.sentence = json.at("sentence").get<std::string>();
+    return ranking;
+  } catch (const Json::exception&) {
+    throwInputError("'{}' was not written by probebench, run without --resume", path);
+  }
 }
 
 }  // namespace pb

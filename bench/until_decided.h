@@ -1,11 +1,13 @@
 // Reference samples until the ranking of the cells is decided: `run --until-decided --budget-s T`.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "bench/runner.h"
 #include "bench/verdict.h"
+#include "bench/work.h"
 
 namespace pb {
 
@@ -23,5 +25,13 @@ struct Ranking {
 // would not end within the budget, or samples are at their limit. max_noise never rises above the suite's own. The
 // references stay in the store. The context's directory is for the pictures and of no use afterwards.
 Ranking decideRanking(const RunContext& context, double budgetSeconds);
+
+// What it does at least, without the samples that it asks for.
+PlanWork computeDecidingWork(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store);
+
+// A ranking in the folder of its run, so that a run that goes on has the max_noise that it was started with. Throws an
+// environment Error if it can't be written, an input Error if what is there can't be read; nullopt without any.
+void writeRanking(const Ranking& ranking, const std::filesystem::path& folder);
+std::optional<Ranking> readRanking(const std::filesystem::path& folder);
 
 }  // namespace pb

@@ -172,6 +172,12 @@ class WorkCounter {
 
 }  // namespace
 
+void PlanWork::addDeciding(const PlanWork& work) {
+  deciding = Deciding{work.frames, work.captures, work.units};
+  std::erase_if(deciding->units,
+                [](const auto& entry) { return entry.first.first == "references" || entry.first.first == "control"; });
+}
+
 PlanWork computeWork(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store) {
   return WorkCounter(suite, scenes, plan, store).count();
 }

@@ -33,6 +33,16 @@ struct PlanWork {
   std::size_t blocks = 0;      // cost measurements times repetitions
   bool mayRefine = false;      // max_noise may ask for more than one picture a reference
   std::map<WorkKind, double> units;
+
+  // What --until-decided does before all that, at least (bench/until_decided.h); its references are among those above.
+  struct Deciding {
+    std::size_t frames = 0;
+    double captures = 0;
+    std::map<WorkKind, double> units;  // without references
+  };
+  std::optional<Deciding> deciding;
+
+  void addDeciding(const PlanWork& work);
 };
 
 // Loads nothing; evaluates the scenes at the frames of the plan.

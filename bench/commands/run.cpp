@@ -115,17 +115,32 @@ int conclude(const RunOutcome& outcome, const std::optional<Ranking>& ranking) {
   return 0;
 }
 
-// Lowers the suite's max_noise to what decides the ranking, as far as the budget goes.
-Ranking decide(const RunOptions& options, const std::string& folder, Suite& suite, const Scenes& scenes,
+// Removes a folder in the end, also after an interrupt.
+class FolderRemoval {
+ public:
+  explicit FolderRemoval(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  ~FolderRemoval() {
+    std::error_code kept;  // what is left behind hurts nobody
+    std::filesystem::remove_all(folder_, kept);
+  }
+  FolderRemoval(const FolderRemoval&) = delete;
+  FolderRemoval& operator=(const FolderRemoval&) = delete;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// With what max_noise the ranking is decided, as far as the budget goes; of a run that goes on, as it was found before.
+Ranking decide(const RunOptions& options, const std::string& folder, const Suite& suite, const Scenes& scenes,
                const Plan& plan, RasterDevice& device, const ReferenceStore& store) {
+  if (options.resume)
+    if (std::optional<Ranking> found = readRanking(folder)) return *std::move(found);
   Progress progress;  // of its own: its phases are not those of the plan
   RunDirectory pictures(folder + "-deciding", {suite.name, "deciding"}, false);
+  const FolderRemoval removal(pictures.folder());
   const double budget = options.budgetSeconds.value_or(std::numeric_limits<double>::infinity());
   Ranking ranking = decideRanking({suite, scenes, plan, device, store, pictures, progress}, budget);
-  std::error_code kept;  // what is left behind hurts nobody
-  std::filesystem::remove_all(pictures.folder(), kept);
   fmt::print(stderr, "{}\n", ranking.sentence);
-  suite.reference.maxNoise = ranking.maxNoise;
   return ranking;
 }
 
@@ -145,7 +160,8 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   RasterDevice device(globals.backend());
   checkPlan(suite, scenes, plan, device);
   const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
-  const PlanWork work = computeWork(suite, scenes, plan, store);
+  PlanWork work = computeWork(suite, scenes, plan, store);
+  if (options.untilDecided) work.addDeciding(computeDecidingWork(suite, scenes, plan, store));
   Rates rates(store.folder(), machineOf(globals));
   const std::string planned = printPlan(suite, plan) + printWork(work, rates);
   if (options.dryRun) {
@@ -161,11 +177,15 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   const std::string folder = options.output.empty() ? "out/" + suite.name : options.output;
   const std::optional<double> ownMaxNoise = suite.reference.maxNoise;
   std::optional<Ranking> ranking;
-  if (options.untilDecided) ranking = decide(options, folder, suite, scenes, plan, device, store);
+  if (options.untilDecided) {
+    ranking = decide(options, folder, suite, scenes, plan, device, store);
+    suite.reference.maxNoise = ranking->maxNoise;
+  }
   Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
   provenance.controlOutcome = control;
   // Last, as it removes an earlier run.
   RunDirectory directory(folder, {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
+  if (ranking) writeRanking(*ranking, folder);
   provenance.settings.emplace_back(kCommandSetting, commandOf(options));
   RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
   if (!options.resume) {
