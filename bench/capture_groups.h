@@ -12,7 +12,8 @@
 namespace pb {
 
 // Of sequences of the frames `first` to `last` each. Indices into `techniques`: groups by their first member, members
-// in order, at most kMostInGroup of them, so that memory doesn't grow with the number of techniques.
+// in order, at most kMostInGroup of them, so that memory doesn't grow with the number of techniques. What holds shadow
+// maps or back faces of its own stays alone: mayShareCaptures().
 inline constexpr std::size_t kMostInGroup = 16;
 using CaptureGroups = std::vector<std::vector<std::size_t>>;
 CaptureGroups captureGroups(const std::vector<Technique>& techniques, int first, int last,

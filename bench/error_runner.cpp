@@ -15,6 +15,7 @@
 #include "bench/score.h"
 #include "bench/task_queue.h"
 #include "bench/truth.h"
+#include "raster/fault.h"
 #include "raster/shared_sequence.h"
 #include "scenes/error.h"
 #include "scenes/image_io.h"
@@ -105,7 +106,8 @@ class ErrorRunner {
     c_.progress.end();
   }
 
-  // Sequences that are rendered together; without external ones.
+  // Sequences that are rendered together; without external ones. With a planted fault each is alone: faults may act
+  // otherwise on captures that are shared.
   std::vector<Sequences> groupsOf(std::size_t scene, const Sequences& sequences) const {
     Sequences own;
     std::ranges::copy_if(sequences, std::back_inserter(own), [](const auto* sequence) { return !sequence->external; });
@@ -116,6 +118,10 @@ class ErrorRunner {
       last = std::max(last, sequence->frames.back());
     }
     std::vector<Sequences> groups;
+    if (isFaultPlanted(c_.device)) {
+      for (const PlannedSequence* sequence : own) groups.push_back({sequence});
+      return groups;
+    }
     for (const std::vector<std::size_t>& members : captureGroups(
              techniques, suiteScene(scene).startFrame(), last, [&](int frame) { return snapshot(scene, frame); },
              c_.suite.image.heightPx)) {

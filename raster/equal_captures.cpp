@@ -7,7 +7,6 @@
 #include "raster/prefilter.h"
 #include "raster/reflection.h"
 #include "raster/refraction.h"
-#include "raster/shadow_maps.h"
 
 namespace pb {
 namespace {
@@ -45,9 +44,12 @@ CapturedSurfaces surfaceOf(const Technique& technique, const Snapshot& snapshot,
 }  // namespace
 
 bool mayShareCaptures(const Technique& technique, const Scene& scene) {
-  const auto isBlended = [](const Material& m) { return m.constants.alpha.x == shading::kAlphaBlend; };
+  const auto isInTheWay = [&](const Material& material) {
+    return material.constants.alpha.x == shading::kAlphaBlend || readsBackFaces(technique, material);
+  };
   return technique.probes == ProbeUse::dynamic && viewsOfProbe(technique) == 6 &&
-         !lookupOf(technique.lookup).isPlanar && std::ranges::none_of(scene.materials, isBlended);
+         !lookupOf(technique.lookup).isPlanar && !scene.castsShadows &&
+         std::ranges::none_of(scene.materials, isInTheWay);
 }
 
 CapturedSurfaces& CapturedSurfaces::operator|=(const CapturedSurfaces& other) {
@@ -77,7 +79,6 @@ void CaptureKeyMaker::advance(const Snapshot& given) {
   due_.push_back(schedule_.advance(snapshot));
   surfaces_ |= capturedSurfaces(technique_, snapshot);
   levels_ = levelFilter(technique_, snapshot);
-  haveShadows_ = haveShadows_ || castsShadows(snapshot);
   haveCoatsWithoutProbe_ = haveCoatsWithoutProbe_ || isAnyWithoutProbe(snapshot, isCoat);
   haveMirrorsWithoutProbe_ = haveMirrorsWithoutProbe_ || isAnyWithoutProbe(snapshot, isMirrorOrGlass);
 }
@@ -90,6 +91,7 @@ CaptureKey CaptureKeyMaker::key() const {
   Technique technique = technique_;
   technique.preset = defaults.preset;
   technique.refresh = defaults.refresh;
+  technique.shadowResolution = defaults.shadowResolution;  // there are no shadows: mayShareCaptures()
   const bool repeats = repeatsLookups(technique_);
   technique.iterations = repeats ? Iterations::incremental : Iterations::bruteForce;
   if (!surfaces_.showMaps) {
@@ -104,7 +106,6 @@ CaptureKey CaptureKeyMaker::key() const {
   if (!surfaces_.refract) technique.refraction = defaults.refraction;
   if (!surfaces_.disperse) technique.dispersion = defaults.dispersion;
   if (!surfaces_.areRough) technique.filter = levels_;
-  if (!haveShadows_) technique.shadowResolution = defaults.shadowResolution;
   if (!haveCoatsWithoutProbe_) technique.coats = defaults.coats;
   if (!haveMirrorsWithoutProbe_) technique.withoutProbe = defaults.withoutProbe;
   return {std::move(technique), due_};

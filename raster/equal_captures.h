@@ -24,7 +24,9 @@ struct CaptureKey {
 };
 
 // Cubes that are captured, without mirrored views. Not of scenes with blended surfaces: for want of room their layers
-// are drawn twice at times, and then what was drawn before shows in the count of fragments.
+// are drawn twice at times, and then what was drawn before shows in the count of fragments. Nor where the final image
+// has large targets of its own, of which each technique would hold a set: shadow maps, in scenes that cast shadows, and
+// the back faces that two-interface refraction reads.
 bool mayShareCaptures(const Technique& technique, const Scene& scene);
 
 // What the captures of a sequence have that settings of a technique act on.
@@ -57,7 +59,6 @@ class CaptureKeyMaker {
   CapturedSurfaces surfaces_;
   // Of all frames.
   ProbeFilter levels_ = ProbeFilter::none;  // that maps have
-  bool haveShadows_ = false;
   bool haveCoatsWithoutProbe_ = false;
   bool haveMirrorsWithoutProbe_ = false;  // or glass
 };

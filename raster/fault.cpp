@@ -22,6 +22,8 @@ void shiftByHalfTexel(gpu::PassConstants& pass) {
 
 void plantFault(RasterDevice& device, const Fault& fault) { device.impl().fault = PlantedFault(fault); }
 
+bool isFaultPlanted(RasterDevice& device) { return device.impl().fault.isPlanted(); }
+
 Technique PlantedFault::techniqueOf(Technique technique) const {
   if (fault_.kind == FaultKind::droppedBounce) technique.bounces = std::max(1, technique.bounces - 1);
   return technique;

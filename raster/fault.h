@@ -36,11 +36,15 @@ struct Fault {
 // In every sequence of the device that is made from then on, and until it is replaced.
 void plantFault(RasterDevice& device, const Fault& fault);
 
+bool isFaultPlanted(RasterDevice& device);
+
 // What the renderer asks at the places where faults are planted; without one, all of these do nothing.
 class PlantedFault {
  public:
   PlantedFault() = default;
   explicit PlantedFault(const Fault& fault) : fault_(fault) {}
+
+  bool isPlanted() const { return fault_.kind != FaultKind::none; }
 
   Technique techniqueOf(Technique technique) const;
   void changePasses(std::vector<gpu::PassConstants>& ofProbes) const;  // by capturePass() - 1

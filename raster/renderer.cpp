@@ -29,13 +29,17 @@ FrameCounters& FrameCounters::operator-=(const FrameCounters& other) {
   return *this;
 }
 
-RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx, int heightPx,
-                           int samplesPerAxis)
-    : device(device_), technique(device_.fault.techniqueOf(technique_)), layout(technique_) {
+void checkSettings(const Technique& technique) {
   checkLookup(technique.lookup);
   refreshPolicy(technique.refresh);  // refuses a bad one
   fresnelLaw(technique.fresnel);
   if (technique.bounces < 1) throwInputError("a frame has at least one bounce iteration, got {}", technique.bounces);
+}
+
+RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx, int heightPx,
+                           int samplesPerAxis)
+    : device(device_), technique(device_.fault.techniqueOf(technique_)), layout(technique_) {
+  checkSettings(technique);
   checkImageFits(device.limits, widthPx, heightPx, samplesPerAxis);
   device.context.makeCurrent();
   scenePass.emplace(device, technique);

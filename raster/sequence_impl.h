@@ -15,6 +15,9 @@
 
 namespace pb {
 
+// Throws an input Error for settings that no sequence can have, whatever the device and the scene.
+void checkSettings(const Technique& technique);
+
 struct RasterSequence::Impl {
   Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx, int heightPx, int samplesPerAxis);
   ~Impl() { device.context.makeCurrent(); }  // the members free GL objects

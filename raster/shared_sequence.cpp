@@ -5,16 +5,22 @@
 
 #include "raster/frame_passes.h"
 #include "raster/lookup.h"
+#include "raster/lookup_records.h"
 #include "raster/sequence_impl.h"
+#include "raster/shadow_maps.h"
 
 namespace pb {
 namespace {
 
 // One that captures all that any of them shows: distances if a lookup reads them, and as many iterations as the most.
+// These repeat lookups only if they do in all of the techniques: a single iteration repeats none, however it is called.
 Technique capturingTechnique(const std::vector<Technique>& techniques) {
   const auto reader = std::ranges::find_if(techniques, needsDistances);
   Technique technique = reader == techniques.end() ? techniques.front() : *reader;
+  if (!repeatsLookups(technique)) technique.iterations = Iterations::bruteForce;
   technique.bounces = std::ranges::max(techniques, {}, &Technique::bounces).bounces;
+  assert(std::ranges::all_of(
+      techniques, [&](const Technique& member) { return repeatsLookups(member) == repeatsLookups(technique); }));
   return technique;
 }
 
@@ -23,7 +29,7 @@ Technique capturingTechnique(const std::vector<Technique>& techniques) {
 // A technique's own part of a frame.
 struct SharedSequence::FinalPass {
   FinalPass(RasterDevice::Impl& device, const Technique& technique_)
-      : technique(device.fault.techniqueOf(technique_)), layout(technique), pass(device, technique) {}
+      : technique(technique_), layout(technique), pass(device, technique) {}
 
   const Technique technique;
   ProbeLayout layout;
@@ -33,8 +39,12 @@ struct SharedSequence::FinalPass {
 SharedSequence::SharedSequence(RasterDevice& device, const std::vector<Technique>& techniques, int widthPx,
                                int heightPx, int samplesPerAxis)
     : captures_(device, capturingTechnique(techniques), widthPx, heightPx, samplesPerAxis) {
-  for (std::size_t i = 0; techniques.size() > 1 && i < techniques.size(); ++i)
-    finalPasses_.push_back(std::make_unique<FinalPass>(device.impl(), techniques[i]));
+  if (techniques.size() == 1) return;
+  assert(!device.impl().fault.isPlanted());
+  for (const Technique& technique : techniques) {
+    checkSettings(technique);
+    finalPasses_.push_back(std::make_unique<FinalPass>(device.impl(), technique));
+  }
 }
 
 SharedSequence::~SharedSequence() { captures_.impl().device.context.makeCurrent(); }  // members free GL objects
@@ -59,14 +69,12 @@ FrameStats SharedSequence::showShared(FinalPass& own) {
   RasterSequence::Impl& shared = captures_.impl();
   shared.device.context.makeCurrent();
   const Snapshot& snapshot = own.layout.apply(*snapshot_);
+  assert(!castsShadows(snapshot));
   const FinalImage& image = *shared.image;
   FrameWork work{.fragmentCount = shared.fragmentCount(countFragments_)};
   own.pass.beginFrame(snapshot, {finalPass(snapshot, image.widthSamples(), image.heightSamples())},
                       shared.captures->resolutions());
-  work.counted([&] {
-    own.pass.drawShadows(work.counters);
-    own.pass.draw(kFinalPass, image.target(), shared.captures->shown(), work.counters);
-  });
+  work.counted([&] { own.pass.draw(kFinalPass, image.target(), shared.captures->shown(), work.counters); });
   shared.device.context.check("rendering a frame from shared captures");
   work.counters += shared.captures->countersOf(own.technique.bounces);
   work.counters.probeBytes = shared.captures->bytesOf(own.technique, snapshot);

@@ -12,7 +12,8 @@ namespace pb {
 
 class SharedSequence {
  public:
-  // At least one technique; a single one may be any. The device must outlive it. Throws as RasterSequence does.
+  // At least one technique; a single one may be any, several must be mayShareCaptures() with equal keys, on a device
+  // without a planted fault. The device must outlive it. Throws for any of them as RasterSequence does.
   SharedSequence(RasterDevice& device, const std::vector<Technique>& techniques, int widthPx, int heightPx,
                  int samplesPerAxis);
   ~SharedSequence();

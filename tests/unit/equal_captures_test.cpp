@@ -76,6 +76,9 @@ const ChangeCase kChanges[] = {
     {"triangles of captures", [](Technique& t) { t.captureLod = 0.5f; }, true, true},
     {"far plane of captures", [](Technique& t) { t.captureFar = 5.0f; }, true, true},
     {"placement", [](Technique& t) { t.placement = Placement::origin; }, true, true},
+    {"sharing of probes", [](Technique& t) { t.sharing = parseSpec("count?probes=1"); }, true, true},
+    {"self reflection", [](Technique& t) { t.selfReflection = SelfReflection::splitParts; }, true, true},
+    {"resolution scale", [](Technique& t) { t.resolutionScale = ResolutionScale::distance; }, true, true},
 };
 
 TEST(EqualCaptures, OfOneProbe_DifferByWhatActsOnMapsOnly) {
@@ -102,7 +105,7 @@ TEST(EqualCaptures, OfLoneGlass_DifferOnlyWhereItIsCapturedFromInside) {
   glass.constants.kind.z = 0.5f;
   const Scene scene = makeBall(glm::vec3(0.5f), glass);
   expectEqual(
-      scene, [](Technique& t) { t.refraction = Refraction::twoInterface; }, true, "two-interface");
+      scene, [](Technique& t) { t.refraction = Refraction::thickSlab; }, true, "thick-slab");
   expectEqual(
       scene, [](Technique& t) { t.fresnel = parseSpec("schlick"); }, true, "fresnel");
   expectEqual(
@@ -118,6 +121,33 @@ TEST(EqualCaptures, ThatShowRoughSurfaces_DifferByTheirFilter) {
   addBox(scene, {1.6f, 0, 0}, glm::vec3(0.8f), rough);
   expectEqual(
       scene, [](Technique& t) { t.filter = ProbeFilter::none; }, false, "filter");
+}
+
+TEST(EqualCaptures, ThatShowDispersion_DifferByIt) {
+  Scene scene = makeMirrorAmongMatte();
+  Material glass = makeGlass(1.5f);
+  glass.constants.kind.z = 0.5f;
+  glass.constants.kind.w = 0.05f;
+  addBox(scene, {1.6f, 0, 0}, glm::vec3(0.8f), glass);
+  expectEqual(
+      scene, [](Technique& t) { t.dispersion = Dispersion::off; }, false, "dispersion");
+}
+
+TEST(EqualCaptures, OfScenesWithSurfacesWithoutProbe_DifferByWhatTheseShow) {
+  Scene scene = makeMirrorAmongMatte();
+  addBox(scene, {1.6f, 0, 0}, glm::vec3(0.8f), makeMirrorMaterial("mirror without probe"));
+  scene.nodes.back().probe.emplace().enabled = false;
+  const auto nearest = [](Technique& t) { t.withoutProbe = WithoutProbe::nearestProbe; };
+  const auto noCoats = [](Technique& t) { t.coats = Coats::none; };
+  expectEqual(scene, nearest, false, "without_probe");
+  expectEqual(scene, noCoats, true, "coats of a scene without any");
+
+  Material coated = makeDiffuseMaterial("coated", glm::vec3(0.5f));
+  coated.constants.kind.x = shading::kSurfaceGlossy;
+  scene = makeMirrorAmongMatte();
+  addBox(scene, {1.6f, 0, 0}, glm::vec3(0.8f), coated);
+  expectEqual(scene, nearest, true, "without_probe of a scene whose mirrors have one");
+  expectEqual(scene, noCoats, false, "coats");
 }
 
 // Whatever the policy, a sequence begins with complete maps.
@@ -151,6 +181,17 @@ TEST(EqualCaptures, AreOfCapturedCubesWithoutBlendedSurfaces) {
   Technique given;
   given.probes = ProbeUse::given;
   EXPECT_FALSE(mayShareCaptures(given, scene));
+  Scene shadowed = scene;
+  shadowed.castsShadows = true;
+  EXPECT_FALSE(mayShareCaptures(Technique(), shadowed)) << "each would hold shadow maps of its own";
+  Technique twoInterfaces;
+  twoInterfaces.refraction = Refraction::twoInterface;
+  EXPECT_TRUE(mayShareCaptures(twoInterfaces, scene));
+  Scene glass = scene;
+  glass.materials.push_back(makeGlass(1.5f));
+  glass.materials.back().constants.kind.z = 0.5f;
+  EXPECT_TRUE(mayShareCaptures(Technique(), glass));
+  EXPECT_FALSE(mayShareCaptures(twoInterfaces, glass)) << "each would hold back faces of its own";
   Scene blended = scene;
   blended.materials.front().constants.alpha.x = shading::kAlphaBlend;
   EXPECT_FALSE(mayShareCaptures(Technique(), blended));
