@@ -75,24 +75,28 @@ void requireObject(const std::vector<Section>& sections, const std::string& obje
 struct SequenceLoss {
   Estimate loss;
   int worstFrame = 0;
+  Sequence frames{};  // that it is of
 };
 
 // Over the frames.
 std::optional<SequenceLoss> sequenceLoss(const Sequence& sequence, const Selection& selection, Region region) {
-  std::vector<FrameEstimate> frames;
+  std::vector<Estimate> losses;
+  Sequence frames;
   std::optional<SequenceLoss> worst;
   for (const CellResult* cell : sequence) {
     const std::optional<Estimate> loss = lossOf(*cell, selection, region);
     if (!loss) continue;
-    if (!worst || loss->value > worst->loss.value) worst = {*loss, cell->frame};
-    frames.push_back({*loss, loss->hasInterval()});
+    if (!worst || loss->value > worst->loss.value) worst = {*loss, cell->frame, {cell}};
+    losses.push_back(*loss);
+    frames.push_back(cell);
   }
   if (!worst) return std::nullopt;
-  const Estimate mean = meanOverFrames(frames);
-  if (!selection.worstFrame) return SequenceLoss{mean, worst->worstFrame};
-  if (worst->loss.hasInterval()) return worst;
+  const Estimate mean = meanOverFrames(losses);
+  if (!selection.worstFrame) return SequenceLoss{mean, worst->worstFrame, frames};
+  if (worst->loss.isKnown()) return worst;
   const double value = worst->loss.value;
-  return SequenceLoss{{value, value - (mean.value - mean.low), value + (mean.high - mean.value)}, worst->worstFrame};
+  worst->loss = {value, value - (mean.value - mean.low), value + (mean.high - mean.value)};
+  return worst;
 }
 
 void takeLarger(std::optional<Estimate>& largest, const Estimate& other) {
@@ -109,13 +113,13 @@ bool addScene(Candidate& candidate, const Sequence& sequence, const Selection& s
     candidate.region = region;
     candidate.worstScene = sequence.front()->scene;
     candidate.worstCells = sequence;
+    candidate.clearOfFloor = isClearOfFloor(found->frames, region);
   }
   if (const std::optional<CostResult>& cost = sequence.front()->cost) {
     takeLarger(candidate.ratio, {cost->ratio, cost->ratioLow, cost->ratioHigh});
     takeLarger(candidate.frameMs, {cost->frameMs, cost->frameMsLow, cost->frameMsHigh});
   }
   candidate.probeBytes = std::fmax(candidate.probeBytes, meanCounter(sequence, "probe_bytes"));
-  candidate.clearOfFloor = candidate.clearOfFloor && isClearOfFloor(sequence, region);
   return true;
 }
 
@@ -147,18 +151,18 @@ AxisValues commonValues(const std::vector<Candidate>& candidates, const std::vec
 
 }  // namespace
 
-Estimate meanOverFrames(const std::vector<FrameEstimate>& frames) {
+Estimate meanOverFrames(const std::vector<Estimate>& frames) {
   assert(!frames.empty());
   double sum = 0, below = 0, above = 0, known = 0;
-  for (const auto& [estimate, isKnown] : frames) {
+  for (const Estimate& estimate : frames) {
     sum += estimate.value;
-    if (!isKnown) continue;
+    if (!estimate.isKnown()) continue;
     below += estimate.value - estimate.low;
     above += estimate.high - estimate.value;
     ++known;
   }
   const double value = sum / static_cast<double>(frames.size());
-  return known > 0 ? Estimate{value, value - below / known, value + above / known} : Estimate{value, value, value};
+  return known > 0 ? Estimate{value, value - below / known, value + above / known} : Estimate::unknown(value);
 }
 
 double lossOf(const std::string& metric, double value) {
@@ -173,9 +177,11 @@ std::optional<Estimate> lossOf(const CellResult& cell, const Selection& selectio
       selection.object.empty() ? errorOf(cell, region, selection.metric) : errorOfObject(cell, selection);
   if (!value || std::isnan(*value)) return std::nullopt;
   const double loss = lossOf(selection.metric, *value);
+  const bool isObject = !selection.object.empty();  // it may lie outside the mask
+  const bool isExact = isFreeOfNoise(cell, isObject ? Region::whole : region);
   const MetricIntervals& intervals = region == Region::mask ? cell.maskIntervals : cell.intervals;
   const auto known = std::ranges::find(intervals, selection.metric, &MetricIntervals::value_type::first);
-  if (known == intervals.end() || !selection.object.empty()) return Estimate{loss, loss, loss};
+  if (known == intervals.end() || isObject) return isExact ? Estimate::exact(loss) : Estimate::unknown(loss);
   const double a = lossOf(selection.metric, known->second.low), b = lossOf(selection.metric, known->second.high);
   return Estimate{loss, std::min({a, b, loss}), std::max({a, b, loss})};
 }

@@ -27,7 +27,7 @@ struct Candidate {
   std::optional<Estimate> ratio;              // frame over plain frame, of the scene where it is largest
   std::optional<Estimate> frameMs;            // likewise
   double probeBytes = 0;                      // likewise
-  bool clearOfFloor = true;                   // on all scenes
+  bool clearOfFloor = true;                   // in the frames that the loss is of
   std::vector<const CellResult*> worstCells;  // frames of the worst scene
   Region region = Region::whole;              // of that scene
   int worstFrame = 0;                         // of these, where the error is largest: the first of several
@@ -43,22 +43,19 @@ struct CandidateSet {
   bool onMask = false;            // some errors are of the mask
 };
 
-// A number at one measured frame. Known: its interval is that of the reference's noise, be it of no width.
-struct FrameEstimate {
-  Estimate estimate;
-  bool isKnown = false;
-};
-// The interval of a mean is the mean of the intervals: what is wrong with one frame's reference may be wrong with all
-// of them alike. Frames of which none is known take it from those of which one is. `frames` must not be empty.
-Estimate meanOverFrames(const std::vector<FrameEstimate>& frames);
+// Of a number at each measured frame. The interval of a mean is the mean of the intervals: what is wrong with one
+// frame's reference may be wrong with all of them alike. Frames of which none is known take it from those of which one
+// is. `frames` must not be empty.
+Estimate meanOverFrames(const std::vector<Estimate>& frames);
 
 // The value where less is better, its negative where more is, its amount for "bias".
 double lossOf(const std::string& metric, double value);
 // Its inverse: the metric of a loss ("bias": its amount).
 double metricOfLoss(const std::string& metric, double loss);
 
-// Error of one cell as the selection asks for it, with its interval if the results have one; nullopt where it is
-// undefined or the object is not in sight.
+// Error of one cell as the selection asks for it: with its interval if the results have one, exact if the reference has
+// no noise, else unknown, as are the errors of single objects then; nullopt where it is undefined or the object is not
+// in sight.
 std::optional<Estimate> lossOf(const CellResult& cell, const Selection& selection, Region region);
 
 // Throws input Errors for an unknown metric, a pattern that is no regular expression or matches no scene, and an object

@@ -4,10 +4,12 @@
 // where both cells keep their replicates against the same batches (equal referenceHash, which two runs can have, too),
 // the difference is jackknifed as a number of its own: *paired*. Elsewhere nothing is known of what the two have in
 // common, and the difference has every value that the two intervals leave open, which excludes 0 exactly where they
-// don't overlap.
+// don't overlap. It is unknown if one of the two is.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
 
 #include "bench/candidates.h"
 #include "bench/estimate.h"
@@ -28,5 +30,8 @@ std::optional<Difference> differenceOf(const CellResult& a, const CellResult& b,
 // Of two candidates of a set, by its selection. Paired where both are worst on the same scene and all their frames with
 // an interval are.
 Difference differenceOf(const CandidateSet& set, std::size_t a, std::size_t b);
+// In the same frames by another metric; nullopt where that is not paired.
+std::optional<Estimate> pairedDifference(const CandidateSet& set, std::size_t a, std::size_t b,
+                                         const std::string& metric);
 
 }  // namespace pb

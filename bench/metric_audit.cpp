@@ -10,7 +10,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "bench/differences.h"
+#include "bench/report_verdict.h"
 #include "bench/tables.h"
 
 namespace pb {
@@ -30,17 +30,11 @@ Region regionOf(const CellResult& cell, std::string_view metric) {
   return cell.maskMetrics && metric != "ms_ssim" ? Region::mask : Region::whole;
 }
 
-std::optional<Difference> differenceOf(const CellResult& a, const CellResult& b, const char* metric) {
-  Selection selection;
-  selection.metric = metric;
-  return differenceOf(a, b, selection, regionOf(a, metric));
-}
-
-// -1: a is better, 1: b is, 0: neither.
-int orderOf(const CellResult& a, const CellResult& b, const char* metric) {
-  const std::optional<Difference> difference = differenceOf(a, b, metric);
-  if (!difference) return 0;
-  return difference->loss.isNegative() ? -1 : difference->loss.isPositive() ? 1 : 0;
+// -1: a is better, 1: b is, 0: neither; nullopt where it is not known or undefined.
+std::optional<int> orderOf(const CellResult& a, const CellResult& b, const char* metric) {
+  const std::optional<Verdict> verdict = knownVerdict(a, b, metric, regionOf(a, metric));
+  if (!verdict) return std::nullopt;
+  return *verdict == Verdict::better ? -1 : *verdict == Verdict::worse ? 1 : 0;
 }
 
 // Cells that answer the same question.
@@ -67,10 +61,11 @@ class Audit {
     audit.pairs = pairs_;
     audit.disputed = disputes_.size();
     for (std::size_t a = 0; a < kCount; ++a) {
-      if (ordered_[a] == 0) continue;
+      if (ordered_[a][a] == 0) continue;
       audit.metrics.emplace_back(kMetrics[a]);
       for (std::size_t b = a + 1; b < kCount; ++b)
-        if (ordered_[b] > 0) audit.agreements.push_back({kMetrics[a], kMetrics[b], tauB(a, b)});
+        if (ordered_[a][b] > 0 && ordered_[b][a] > 0)
+          audit.agreements.push_back({kMetrics[a], kMetrics[b], tauB(a, b)});
     }
     audit.disputes = largest(disputes);
     return audit;
@@ -82,19 +77,21 @@ class Audit {
 
   void add(const CellResult& a, const CellResult& b) {
     ++pairs_;
-    int orders[kCount];
-    for (std::size_t m = 0; m < kCount; ++m) {
-      orders[m] = orderOf(a, b, kMetrics[m]);
-      if (orders[m] != 0) ++ordered_[m];
-    }
+    std::optional<int> orders[kCount];
+    for (std::size_t m = 0; m < kCount; ++m) orders[m] = orderOf(a, b, kMetrics[m]);
     for (std::size_t m = 0; m < kCount; ++m)
-      for (std::size_t n = m + 1; n < kCount; ++n) balance_[m][n] += orders[m] * orders[n];
-    if (orders[kFlipIndex] * orders[kRelmseIndex] < 0) addDispute(a, b, orders[kFlipIndex] < 0);
+      for (std::size_t n = 0; n < kCount; ++n) {
+        if (!orders[m] || !orders[n]) continue;
+        if (*orders[m] != 0) ++ordered_[m][n];
+        balance_[m][n] += *orders[m] * *orders[n];
+      }
+    const int byFlip = orders[kFlipIndex].value_or(0), byRelmse = orders[kRelmseIndex].value_or(0);
+    if (byFlip * byRelmse < 0) addDispute(a, b, byFlip < 0);
   }
 
   double tauB(std::size_t a, std::size_t b) const {
     return static_cast<double>(balance_[a][b]) /
-           std::sqrt(static_cast<double>(ordered_[a]) * static_cast<double>(ordered_[b]));
+           std::sqrt(static_cast<double>(ordered_[a][b]) * static_cast<double>(ordered_[b][a]));
   }
 
   void addDispute(const CellResult& a, const CellResult& b, bool isABetterByFlip) {
@@ -127,7 +124,8 @@ class Audit {
   }
 
   std::size_t pairs_ = 0;
-  std::size_t ordered_[kCount] = {};           // pairs that the metric orders: P - T
+  // Of the pairs whose order both metrics know.
+  std::size_t ordered_[kCount][kCount] = {};   // those that the first one orders: P - T
   std::int64_t balance_[kCount][kCount] = {};  // C - D
   std::vector<MetricDispute> disputes_;
 };
@@ -184,9 +182,10 @@ std::string metricAuditText(const MetricAudit& audit) {
   std::string text = fmt::format(
       "## Do the metrics agree?\n\n{} pairs of techniques on the same scene and frame, ordered by each metric (on the "
       "mask where there is one; MS-SSIM on the whole image). Kendall's tau-b: 1 where two metrics order all pairs "
-      "alike, -1 where oppositely; pairs whose difference is within its 95 % interval count as ties, those of metrics "
-      "without an interval "
-      "(mae, smape, psnr, max_abs) only where the values are the same.\n\n{}\n",
+      "alike, -1 where oppositely; pairs whose difference is within its 95 % interval or below the floor count as "
+      "ties. "
+      "Where the reference has noise, metrics without an interval (ms_ssim, mae, smape, psnr, max_abs) order "
+      "nothing.\n\n{}\n",
       audit.pairs, toMarkdown(agreementTable(audit)));
   text += fmt::format("FLIP-HDR and relMSE order {} {} oppositely, by {:.0f} % or more in both{}\n\n", audit.disputed,
                       audit.disputed == 1 ? "pair" : "pairs", 100 * (kSmallestFactor - 1),

@@ -1,6 +1,6 @@
 // Do the metrics agree on which technique is better? Pairs of techniques on the same scene, camera and frame are
-// ordered by each metric; pairs whose 95 % intervals overlap are ties, as are equal values of metrics without
-// intervals.
+// ordered by each metric as verdictOf() has it; pairs whose difference is within its 95 % interval, or below the floor,
+// are ties. A pair is left out for metrics whose noise is not known, unless their values are equal.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@ namespace pb {
 
 // Of two metrics over all pairs: Kendall's tau-b (Kendall, "The treatment of ties in ranking problems", Biometrika
 // 33(3), 1945), (C - D) / sqrt((P - Ta) (P - Tb)) with C pairs that both order alike, D oppositely, Ta and Tb ties of P
-// pairs: 1 is full agreement, 0 none, -1 the opposite. NaN where one of them orders nothing.
+// pairs of which both know the order: 1 is full agreement, 0 none, -1 the opposite. NaN where one of them orders
+// nothing.
 struct MetricAgreement {
   std::string a, b;
   double tauB = 0;

@@ -7,16 +7,16 @@
 
 namespace pb {
 
-bool dominates(const Tradeoff& a, const Tradeoff& b, const std::optional<Estimate>& errorDifference) {
+bool dominates(const Tradeoff& a, const Tradeoff& b, std::optional<bool> hasSmallerError) {
   const bool noWorse = a.error.value <= b.error.value && a.cost.value <= b.cost.value;
-  return noWorse && (errorDifference.value_or(unpairedDifference(a.error, b.error)).isNegative() ||
+  return noWorse && (hasSmallerError.value_or(unpairedDifference(a.error, b.error).isNegative()) ||
                      unpairedDifference(a.cost, b.cost).isNegative());
 }
 
-std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices, const ErrorDifference& errorDifference) {
+std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices, const ErrorOrder& hasSmallerError) {
   const auto isDominatedBy = [&](std::size_t i, std::size_t other) {
     return dominates(choices[other], choices[i],
-                     errorDifference ? std::optional(errorDifference(other, i)) : std::nullopt);
+                     hasSmallerError ? std::optional(hasSmallerError(other, i)) : std::nullopt);
   };
   std::vector<std::size_t> front;
   for (std::size_t i = 0; i < choices.size(); ++i) {

@@ -15,15 +15,15 @@ struct Tradeoff {
   Estimate error, cost;
 };
 
-// The error of choice i less that of choice j.
-using ErrorDifference = std::function<Estimate(std::size_t i, std::size_t j)>;
+// Whether the error of choice i is smaller than that of choice j for sure.
+using ErrorOrder = std::function<bool(std::size_t i, std::size_t j)>;
 
-// No worse in either value, and better in one of them by a difference that is sure: those that may be chance dominate
-// nothing. errorDifference: of a less b; without it that of errors of which nothing is known in common.
-bool dominates(const Tradeoff& a, const Tradeoff& b, const std::optional<Estimate>& errorDifference = {});
+// No worse in either value, and better in one of them by a difference that is sure: those that may be chance, or are
+// not known, dominate nothing. hasSmallerError: a, for sure; without it errors have nothing in common that is known.
+bool dominates(const Tradeoff& a, const Tradeoff& b, std::optional<bool> hasSmallerError = {});
 
 // Indices of those that nothing dominates, by cost, then error, then index.
-std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices, const ErrorDifference& errorDifference = {});
+std::vector<std::size_t> paretoFront(std::span<const Tradeoff> choices, const ErrorOrder& hasSmallerError = {});
 
 // The choice of the front farthest below the straight line from its cheapest to its most exact one, in log(cost) and
 // log(error), each scaled to [0, 1]: where paying more stops to pay (Satopaa et al., "Finding a Kneedle in a Haystack",

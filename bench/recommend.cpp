@@ -24,7 +24,7 @@ bool hasCosts(const CandidateSet& set) {
 
 enum class Fit { no, perhaps, yes };
 
-// Perhaps: the value is below the limit, its interval is not.
+// Perhaps: the value is below the limit, its interval is not, or not known.
 Fit fitOf(const std::optional<Estimate>& estimate, const std::optional<double>& limit) {
   if (!limit) return Fit::yes;
   if (!estimate || !(estimate->value <= *limit)) return Fit::no;
@@ -75,10 +75,8 @@ std::string valueOf(const AxisValues& technique, const std::string& axis) {
 Step makeStep(const std::string& axis, const CandidateSet& set, std::size_t first, std::size_t second) {
   const Candidate &from = set.candidates[first], &to = set.candidates[second];
   Step step{axis, valueOf(from.technique, axis), valueOf(to.technique, axis)};
-  const Difference rise = differenceOf(set, second, first);
-  step.gain = -rise.loss.value;
-  step.verdict = verdictOf(rise, to.clearOfFloor || from.clearOfFloor);
-  step.plusMinus = rise.loss.plusMinus();
+  step.gain = -differenceOf(set, second, first).loss;
+  step.verdict = verdictOf(set, second, first);
   if (from.ratio && to.ratio)
     step.costFactor = Estimate{to.ratio->value / from.ratio->value, to.ratio->low / from.ratio->high,
                                to.ratio->high / from.ratio->low};
@@ -139,8 +137,8 @@ Recommendation recommend(const Results& results, const RecommendRequest& request
   std::ranges::sort(answer.undecided, {}, rank);
   if (hasCosts(answer.set)) {
     const std::vector<Tradeoff> tradeoffs = tradeoffsOf(answer.set);
-    answer.front =
-        paretoFront(tradeoffs, [&](std::size_t i, std::size_t j) { return differenceOf(answer.set, i, j).loss; });
+    answer.front = paretoFront(
+        tradeoffs, [&](std::size_t i, std::size_t j) { return verdictOf(answer.set, i, j) == Verdict::better; });
     answer.knee = kneeOf(tradeoffs, answer.front);
   }
   if (answer.chosen) answer.steps = stepsFrom(answer.set, *answer.chosen);

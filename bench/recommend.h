@@ -27,9 +27,8 @@ struct RecommendRequest {
 // What going from one technique to another does, where they differ in one axis.
 struct Step {
   std::string axis, from, to;
-  double gain = 0;       // by which the error falls; negative if it rises
-  double plusMinus = 0;  // half the 95 % interval of the gain, paired if it can be; 0 where there is no noise
-  Verdict verdict = Verdict::equal;  // of the error after it, seen from that before
+  Estimate gain{};                   // by which the error falls, negative if it rises; paired if it can be
+  std::optional<Verdict> verdict{};  // of the error after it, seen from that before; nullopt: the noise is not known
   std::optional<Estimate> costFactor{};
 };
 

@@ -97,7 +97,8 @@ std::string undecidedText(const Recommendation& answer, const RecommendRequest& 
   std::string text;
   for (std::size_t i = 0; i < std::min(answer.undecided.size(), kShown); ++i) {
     const Candidate& c = answer.set.candidates[answer.undecided[i]];
-    text += fmt::format("Within its interval of a limit, so not sure: {}, {} {}, {}\n",
+    text += fmt::format("{}, so not sure: {}, {} {}, {}\n",
+                        c.loss.isKnown() ? "Within its interval of a limit" : "Within the limits as measured",
                         namedTechnique(c.technique, answer.set, defaults), request.selection.metric,
                         errorText(request.selection.metric, c.loss), ratioText(c));
   }
@@ -108,7 +109,7 @@ std::string stepsText(const std::vector<Step>& steps) {
   constexpr std::size_t kShown = 8;
   if (steps.empty()) return {};
   std::vector<Step> sorted = steps;
-  std::ranges::stable_sort(sorted, std::greater(), &Step::gain);
+  std::ranges::stable_sort(sorted, std::greater(), [](const Step& step) { return step.gain.value; });
   std::string text = "One step from there:\n";
   for (std::size_t i = 0; i < std::min(sorted.size(), kShown); ++i) text += "  " + stepText(sorted[i]) + '\n';
   return text + '\n';
@@ -118,7 +119,8 @@ std::string stepsText(const std::vector<Step>& steps) {
 std::string nothingText(const Recommendation& answer, const RecommendRequest& request, const AxisValues& defaults) {
   const auto& candidates = answer.set.candidates;
   if (candidates.empty()) return "No technique was measured on all of these scenes.\n";
-  std::string text = "No technique of this run holds that.";
+  std::string text = answer.undecided.empty() ? "No technique of this run holds that."
+                                              : "No technique of this run holds that for sure.";
   const auto add = [&](const char* what, const auto& rank) {
     const Candidate& nearest = *std::ranges::min_element(candidates, {}, rank);
     text += fmt::format(" The {}: {}\n{}", what, namedTechnique(nearest.technique, answer.set, defaults),
@@ -137,8 +139,8 @@ std::string nothingText(const Recommendation& answer, const RecommendRequest& re
 }  // namespace
 
 std::string errorText(const std::string& metric, const Estimate& loss) {
-  const std::string value = formatSignificant(metricOfLoss(metric, loss.value));
-  return loss.hasInterval() ? fmt::format("{} +- {}", value, formatSignificant(loss.plusMinus(), 1)) : value;
+  const Estimate error = isLowerBetter(metric) ? loss : -loss;
+  return formatSignificant(error.value) + formatUncertainty(error);
 }
 
 std::string ratioText(const Candidate& candidate, bool withInterval) {
@@ -159,15 +161,16 @@ std::string questionText(const Selection& selection, const CandidateSet& set) {
 }
 
 std::string stepText(const Step& step) {
-  const std::string interval = step.plusMinus > 0 ? fmt::format(" +- {}", formatSignificant(step.plusMinus, 1)) : "";
+  const double reach = step.gain.isKnown() ? step.gain.plusMinus() : 0;
   std::string text = fmt::format("{} {} -> {} ", step.axis, step.from, step.to);
   if (step.verdict == Verdict::belowFloor)
     text += "stays below the floor";
   else if (step.verdict == Verdict::equal)
-    text += step.plusMinus > 0 ? fmt::format("changes nothing within {}", formatSignificant(step.plusMinus, 1))
-                               : std::string("changes nothing");
+    text += reach > 0 ? "changes nothing within " + formatSignificant(reach, 1) : "changes nothing";
+  else if (step.gain.value > 0)
+    text += fmt::format("buys {}{}", formatSignificant(step.gain.value), formatUncertainty(step.gain));
   else
-    text += fmt::format("{} {}{}", step.gain > 0 ? "buys" : "loses", formatSignificant(std::abs(step.gain)), interval);
+    text += fmt::format("loses {}{}", formatSignificant(-step.gain.value), formatUncertainty(-step.gain));
   if (!step.costFactor) return text;
   const bool sure = step.costFactor->high < 1 || step.costFactor->low > 1;
   return text + (sure ? fmt::format(" for {}x the time", formatSignificant(step.costFactor->value))
@@ -177,13 +180,16 @@ std::string stepText(const Step& step) {
 const Step* bestStepUp(const std::vector<Step>& steps) {
   const Step* best = nullptr;
   for (const Step& step : steps)
-    if (step.verdict == Verdict::better && (!best || step.gain > best->gain)) best = &step;
+    if (step.verdict == Verdict::better && (!best || step.gain.value > best->gain.value)) best = &step;
   return best;
 }
 
 const Step* bestStepDown(const std::vector<Step>& steps) {
   const Step* best = nullptr;
-  const auto loss = [](const Step& step) { return step.verdict == Verdict::worse ? -step.gain : 0.0; };
+  const auto loss = [](const Step& step) {
+    const bool mayCost = !step.verdict || step.verdict == Verdict::worse;
+    return mayCost ? std::max(-step.gain.value, 0.0) : 0.0;
+  };
   for (const Step& step : steps) {
     if (!step.costFactor || !(step.costFactor->high < 1)) continue;
     const bool better = !best || loss(step) < loss(*best) ||

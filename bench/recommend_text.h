@@ -7,7 +7,7 @@
 
 namespace pb {
 
-// "0.0472 +- 0.0002" of a loss, as the metric.
+// "0.0472 +- 0.0002" of a loss, as the metric, see formatUncertainty().
 std::string errorText(const std::string& metric, const Estimate& loss);
 
 // "3.41x" with its interval "3.41x [3.38, 3.45]" if asked for; "no cost measured" without one.

@@ -7,8 +7,7 @@ namespace pb {
 bool isNoiseKnown(const CellResult& cell, Region region, const std::string& metric) {
   const MetricIntervals& intervals = region == Region::mask ? cell.maskIntervals : cell.intervals;
   if (std::ranges::find(intervals, metric, &MetricIntervals::value_type::first) != intervals.end()) return true;
-  const MetricValues& floor = region == Region::mask ? cell.maskFloor : cell.floor;
-  return !floor.empty() && std::ranges::all_of(floor, [](const auto& entry) { return entry.second == 0; });
+  return isFreeOfNoise(cell, region);
 }
 
 std::optional<Verdict> knownVerdict(const CellResult& a, const CellResult& b, const std::string& metric,

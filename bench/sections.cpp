@@ -135,6 +135,11 @@ double costRank(const CellResult& cell) {
   return cell.cost ? cell.cost->ratio : std::numeric_limits<double>::infinity();
 }
 
+bool isFreeOfNoise(const CellResult& cell, Region region) {
+  const MetricValues& floor = region == Region::mask ? cell.maskFloor : cell.floor;
+  return !floor.empty() && std::ranges::all_of(floor, [](const auto& entry) { return entry.second == 0; });
+}
+
 bool isClearOfFloor(const Sequence& sequence, Region region) {
   return std::ranges::all_of(sequence, [&](const CellResult* cell) { return isClearOfFloor(*cell, region); });
 }

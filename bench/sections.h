@@ -49,6 +49,9 @@ double largestFaceAge(const Sequence& sequence);
 // The multiple of a plain frame that breaks ties of errors; infinite where none was measured.
 double costRank(const CellResult& cell);
 
+// Whether the reference has no noise there, so that every error is exact. False where no floor is known.
+bool isFreeOfNoise(const CellResult& cell, Region region);
+
 // Whether the reference's noise makes up at most a tenth of the relMSE in every frame: against a noisy reference relMSE
 // is on average the true one plus the floor. True where no floor is known.
 bool isClearOfFloor(const Sequence& sequence, Region region);

@@ -34,9 +34,10 @@ bool hasChoice(const Results& results) {
 
 // What the lines say, of a run or of one scene of it.
 struct Findings {
-  Recommendation answer;    // the cheapest technique that is good enough; without costs that of the smallest error
+  // The cheapest technique that is good enough; without costs, or where noise is not known, that of the smallest error.
+  Recommendation answer;
   std::size_t best = 0;     // that of the smallest error, the cheapest of several
-  std::string limit{};      // what is good enough, of the metric
+  std::string limit{};      // what is good enough, of the metric; empty where nobody can say
   bool byInterval = false;  // as nobody knows the smallest error to within a tenth
 };
 
@@ -58,6 +59,7 @@ Findings findingsOf(const Results& results) {
   Findings findings{recommend(results, request)};
   findings.best = findings.answer.chosen.value();  // nothing limits it
   const Estimate loss = findings.answer.set.candidates[findings.best].loss;
+  if (!loss.isKnown()) return findings;  // what is as good cannot be said
   findings.byInterval = loss.high > kGoodEnough * loss.value;
   request.maxError = limitFor(loss);
   findings.limit = formatSignificant(*request.maxError);
@@ -146,7 +148,7 @@ std::string withinText(const Findings& findings) {
 std::vector<std::string> choiceLines(const Findings& findings) {
   const CandidateSet& set = findings.answer.set;
   const std::string best = choiceText(set, findings.best, Selection().metric);
-  if (findings.answer.front.empty()) return {"Smallest error: " + best};
+  if (findings.answer.front.empty() || findings.limit.empty()) return {"Smallest error: " + best};
   const std::size_t cheapest = *findings.answer.chosen;
   if (cheapest == findings.best)
     return {fmt::format("Smallest error, and the cheapest {}: {}", withinText(findings), best)};
@@ -190,7 +192,7 @@ std::vector<std::string> linesOf(const Results& results, const PrintSettings& se
                     choiceText(set, *findings.answer.knee, Selection().metric));
   lines.push_back(
       fmt::format("Other limits: probebench recommend {} --max-error {}={} | --budget-ms Y | --budget-ratio Y",
-                  settings.runDirectory, Selection().metric, findings.limit));
+                  settings.runDirectory, Selection().metric, findings.limit.empty() ? "X" : findings.limit));
   return lines;
 }
 

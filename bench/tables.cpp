@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "scenes/spec.h"
+
 namespace pb {
 namespace {
 
@@ -75,6 +77,20 @@ std::string formatSignificant(double value, int digits) {
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
   if (exponent < -4 || exponent >= 6) return fmt::format("{:.{}e}", value, digits - 1);
   return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
+}
+
+std::string formatUncertainty(const Estimate& estimate) {
+  constexpr double kSameSides = 1.25;
+  if (!estimate.isKnown()) return " (interval not known)";
+  if (!(estimate.plusMinus() > 0)) return {};
+  const double above = estimate.high - estimate.value, below = estimate.value - estimate.low;
+  const std::string reach = formatSignificant(estimate.plusMinus(), 1);
+  const auto printed = [](const std::string& number) { return parseNumber(number).value_or(0); };
+  const bool holdsZero = !estimate.isNegative() && !estimate.isPositive();
+  const bool seemsToHoldZero = std::abs(printed(formatSignificant(estimate.value))) <= printed(reach);
+  if (std::max(above, below) <= kSameSides * std::min(above, below) && holdsZero == seemsToHoldZero)
+    return " +- " + reach;
+  return fmt::format(" [{}, {}]", formatSignificant(estimate.low), formatSignificant(estimate.high));
 }
 
 }  // namespace pb

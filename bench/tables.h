@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/estimate.h"
+
 namespace pb {
 
 enum class Align { left, right };
@@ -28,5 +30,9 @@ std::string toMarkdown(const Table& table);
 // `value` with that many significant digits: 0.0123, 12.3, 12345, and 1.23e-05 below 1e-4 or from a million on. "-" for
 // NaN.
 std::string formatSignificant(double value, int digits = 3);
+
+// What follows a number to say how sure it is: "" if it is exact, " +- 0.002", " [0.0001, 0.0052]" where the interval's
+// sides differ by more than a quarter or rounding would let it seem to hold 0 or not, " (interval not known)".
+std::string formatUncertainty(const Estimate& estimate);
 
 }  // namespace pb

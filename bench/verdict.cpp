@@ -4,14 +4,15 @@
 #include <map>
 #include <tuple>
 
-#include "bench/candidates.h"
-
 namespace pb {
 namespace {
 
 Region regionOf(const CellResult& cell) { return cell.maskMetrics ? Region::mask : Region::whole; }
 
 bool isClear(const CellResult& cell, Region region) { return isClearOfFloor(Sequence{&cell}, region); }
+
+// The one metric whose differences noise leaves as they are, on average.
+constexpr char kUnbiasedMetric[] = "mse";
 
 bool hasInterval(const CellResult& cell, const std::string& metric) {
   const MetricIntervals& intervals = regionOf(cell) == Region::mask ? cell.maskIntervals : cell.intervals;
@@ -20,17 +21,27 @@ bool hasInterval(const CellResult& cell, const std::string& metric) {
 
 }  // namespace
 
-Verdict verdictOf(const Difference& difference, bool anyIsClear) {
-  const Estimate& loss = difference.loss;
-  if (loss.low == 0 && loss.high == 0) return Verdict::equal;
-  if (!anyIsClear && !difference.isPaired) return Verdict::belowFloor;
-  if (loss.isNegative()) return Verdict::better;
-  if (loss.isPositive()) return Verdict::worse;
-  return anyIsClear ? Verdict::equal : Verdict::belowFloor;
+Verdict verdictOf(const Difference& difference) {
+  if (difference.loss.isNegative()) return Verdict::better;
+  if (difference.loss.isPositive()) return Verdict::worse;
+  return Verdict::equal;
 }
 
-Verdict verdictOf(const Estimate& a, const Estimate& b, bool aIsClear, bool bIsClear) {
-  return verdictOf(Difference{unpairedDifference(a, b)}, aIsClear || bIsClear);
+Verdict verdictBelowFloor(const Difference& difference, const Difference& mse) {
+  if (difference.loss.low == 0 && difference.loss.high == 0) return Verdict::equal;
+  const Verdict verdict = verdictOf(difference);
+  const bool isSure = difference.isPaired && mse.isPaired && verdict != Verdict::equal && verdictOf(mse) == verdict;
+  return isSure ? verdict : Verdict::belowFloor;
+}
+
+Verdict verdictOf(const Estimate& a, const Estimate& b) { return verdictOf(Difference{unpairedDifference(a, b)}); }
+
+std::optional<Verdict> verdictOf(const CandidateSet& set, std::size_t a, std::size_t b) {
+  const Difference difference = differenceOf(set, a, b);
+  if (!difference.loss.isKnown()) return difference.loss.value == 0 ? std::optional(Verdict::equal) : std::nullopt;
+  if (set.candidates[a].clearOfFloor || set.candidates[b].clearOfFloor) return verdictOf(difference);
+  const std::optional<Estimate> mse = pairedDifference(set, a, b, kUnbiasedMetric);
+  return verdictBelowFloor(difference, mse ? Difference{*mse, true} : Difference{});
 }
 
 std::string printVerdict(Verdict verdict) {
@@ -52,7 +63,9 @@ std::optional<Verdict> verdictOf(const CellResult& a, const CellResult& b, const
   selection.metric = metric;
   const std::optional<Difference> difference = differenceOf(a, b, selection, region);
   if (!difference) return std::nullopt;
-  return verdictOf(*difference, isClear(a, region) || isClear(b, region));
+  if (isClear(a, region) || isClear(b, region)) return verdictOf(*difference);
+  selection.metric = kUnbiasedMetric;
+  return verdictBelowFloor(*difference, differenceOf(a, b, selection, region).value_or(Difference{}));
 }
 
 RankingState rankingState(const std::vector<CellResult>& cells, const std::string& metric) {

@@ -153,7 +153,7 @@ std::string differenceText(const ComparedValue& value) {
   const double difference = value.difference();
   std::string text = fmt::format("{}{}", difference > 0 ? "+" : "", formatSignificant(difference));
   if (const std::optional<Interval>& interval = value.differenceInterval)
-    text += " +- " + formatSignificant(Estimate{difference, interval->low, interval->high}.plusMinus(), 1);
+    text += formatUncertainty({difference, interval->low, interval->high});
   return text;
 }
 
@@ -243,7 +243,8 @@ std::string makeComparisonReport(const Results& before, const Results& after, co
     text +=
         "Errors are those of the mask, where a scene has one. `equal`: the same, or the difference is within its 95 % "
         "interval (paired where both runs have the same reference, else by overlap of the two intervals); `below the "
-        "floor`: so, and neither is clear of the reference's own noise; `changed`: not the same, and no interval is "
+        "floor`: neither is clear of the reference's own noise, and MSE is not sure either; `changed`: not the same, "
+        "and no interval is "
         "known. Costs are counted once a technique and scene, errors once a frame.\n\n";
     const Table changes = changeTable(comparison, after, defaults);
     if (!changes.rows.empty()) text += "What changed most:\n\n" + toMarkdown(changes) + '\n';

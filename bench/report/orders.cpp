@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "bench/differences.h"
+#include "bench/verdict.h"
 
 namespace pb {
 namespace {
@@ -26,7 +26,7 @@ std::set<std::string> noisyMetrics(const Section& section, Region region) {
 std::string betterThan(const CandidateSet& set, std::size_t a) {
   std::string text;
   for (std::size_t b = 0; b < set.candidates.size(); ++b)
-    text += a != b && differenceOf(set, a, b).loss.isNegative() ? '1' : '0';
+    text += a != b && verdictOf(set, a, b) == Verdict::better ? '1' : '0';
   return text;
 }
 

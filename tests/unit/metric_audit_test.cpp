@@ -16,6 +16,7 @@ CellResult cellOf(const std::string& scene, const std::string& resolution, doubl
   CellResult cell = samples::makeCell(scene, 0, resolution, "static", 0.1);
   cell.maskMetrics->flipHdr->mean = flip;
   cell.maskMetrics->sums.relmse = relmse;
+  cell.maskFloor = {{"mse", 0}, {"relmse", 0}};  // no noise: all differences are exact
   return cell;
 }
 
@@ -54,6 +55,20 @@ TEST(MetricAudit, WhatLiesWithinIntervals_IsATie) {
   const MetricAudit audit = auditMetrics(cells);
   EXPECT_EQ(audit.disputed, 0u);
   EXPECT_THAT(audit.disputes, IsEmpty());
+}
+
+// MAE orders the second pair oppositely, but against a reference with noise nobody knows by how much.
+TEST(MetricAudit, WhatHasNoIntervalWhereThereIsNoise_IsLeftOut) {
+  std::vector<CellResult> cells = {cellOf("a", "1", 0.1, 1), cellOf("a", "2", 0.2, 2), cellOf("b", "1", 0.1, 1),
+                                   cellOf("b", "2", 0.2, 2)};
+  for (const std::size_t i : {0u, 3u}) cells[i].maskMetrics->sums.mae = 0.1;
+  for (const std::size_t i : {1u, 2u}) cells[i].maskMetrics->sums.mae = 0.2;
+  EXPECT_EQ(tauOf(auditMetrics(cells), "flip_hdr", "mae"), 0.0);
+  for (const std::size_t i : {2u, 3u}) {
+    cells[i].maskFloor = {{"relmse", 1e-6}};
+    cells[i].maskIntervals = {{"flip_hdr", {cells[i].maskMetrics->flipHdr->mean, cells[i].maskMetrics->flipHdr->mean}}};
+  }
+  EXPECT_EQ(tauOf(auditMetrics(cells), "flip_hdr", "mae"), 1.0);
 }
 
 TEST(MetricAudit, ErrorsThatAreNearlyTheSame_AreNoDispute) {

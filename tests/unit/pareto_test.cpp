@@ -29,6 +29,18 @@ TEST(Dominance, OfEqualsIsNone) {
   EXPECT_FALSE(dominates(a, a));
 }
 
+TEST(Dominance, OfUnknownErrors_IsThatOfTheCostAlone) {
+  const Tradeoff a{Estimate::unknown(1), exactly(1)};
+  EXPECT_FALSE(dominates(a, {Estimate::unknown(2), exactly(1)}));
+  EXPECT_TRUE(dominates(a, {Estimate::unknown(2), exactly(2)}));
+  EXPECT_FALSE(dominates(a, {Estimate::unknown(0.5), exactly(2)}));
+}
+
+TEST(ParetoFront, AsksForTheOrderOfErrors) {
+  const std::vector<Tradeoff> choices = {{within(1.0, 0.3), exactly(2)}, {within(1.2, 0.3), exactly(2)}};
+  EXPECT_THAT(paretoFront(choices, [](std::size_t i, std::size_t j) { return i == 0 && j == 1; }), ElementsAre(0));
+}
+
 TEST(ParetoFront, HoldsWhatNothingDominates_CheapestFirst) {
   const std::vector<Tradeoff> choices = {{exactly(1), exactly(9)},     // most exact
                                          {exactly(3), exactly(3)},     // between

@@ -44,6 +44,12 @@ Results resultsOf(const std::vector<std::pair<std::string, std::vector<Choice>>>
   return results;
 }
 
+// As if the references had no noise.
+Results withoutNoise(Results results) {
+  for (CellResult& cell : results.cells) cell.floor = cell.maskFloor = {{"mse", 0.0}, {"relmse", 0.0}};
+  return results;
+}
+
 // Error falls and cost rises with resolution; `static` is cheap and bad.
 Results oneScene() {
   return resultsOf({{"a",
@@ -123,15 +129,72 @@ TEST(Recommend, WhatIsMissingOnAScene_IsNoChoice) {
 }
 
 TEST(Recommend, WhereMoreIsBetter_TheLimitIsALowerOne) {
-  Results results = oneScene();
+  Results results = withoutNoise(oneScene());
   for (CellResult& cell : results.cells) cell.maskMetrics->ssim->mean = 1 - cell.maskMetrics->flipHdr->mean;
   RecommendRequest request = maxError(0.75);
   request.selection.metric = "ssim";
   EXPECT_EQ(chosen(recommend(results, request)), "resolution=128 refresh=every-frame");
 }
 
-TEST(Recommend, OfAnObject_TakesItsErrorAlone) {
+// Of metrics that have none, and of single objects.
+TEST(Recommend, WithoutAnInterval_IsSureOnlyWhereThereIsNoNoise) {
   Results results = oneScene();
+  for (CellResult& cell : results.cells) cell.maskMetrics->sums.mae = cell.maskMetrics->flipHdr->mean;
+  RecommendRequest request = maxError(0.25);
+  request.selection.metric = "mae";
+  const Recommendation unsure = recommend(results, request);
+  EXPECT_EQ(chosen(unsure), "none");
+  EXPECT_THAT(unsure.undecided, ElementsAre(1, 2));
+  const std::string text = print(unsure, request, results, {});
+  EXPECT_THAT(text, HasSubstr("No technique of this run holds that for sure."));
+  EXPECT_THAT(text, HasSubstr("not sure: resolution=128 refresh=every-frame, mae 0.200 (interval not known), 3.00x\n"));
+  EXPECT_EQ(chosen(recommend(withoutNoise(results), request)), "resolution=128 refresh=every-frame");
+}
+
+TEST(Steps, WithoutAnInterval_AreNotSure) {
+  Results results = resultsOf({{"a", {{"64", "static", 0.2, 0, 1.0}, {"128", "static", 0.1, 0, 1.0}}}});
+  for (CellResult& cell : results.cells) cell.maskMetrics->sums.mae = cell.maskMetrics->flipHdr->mean;
+  RecommendRequest request;
+  request.selection.metric = "mae";
+  const Recommendation unsure = recommend(results, request);
+  EXPECT_EQ(unsure.steps[0].verdict, std::nullopt);
+  EXPECT_THAT(print(unsure, request, results, {}),
+              HasSubstr("resolution 128 -> 64 loses 0.100 (interval not known) for"));
+  EXPECT_THAT(unsure.front, SizeIs(2));
+  const Recommendation sure = recommend(withoutNoise(results), request);
+  EXPECT_EQ(sure.steps[0].verdict, Verdict::worse);
+  EXPECT_THAT(sure.front, ElementsAre(1));
+}
+
+// Scene a is noise, but what counts is scene b, where errors are larger and exact.
+TEST(Steps, AreBelowTheFloorOnlyWhereTheyAreWorst) {
+  Results results = resultsOf({{"a", {{"64", "static", 0.10, 0, 1.0}, {"128", "static", 0.09, 0, 2.0}}},
+                               {"b", {{"64", "static", 0.5, 0, 1.0}, {"128", "static", 0.3, 0, 2.0}}}});
+  for (const std::size_t i : {0u, 1u}) results.cells[i].maskFloor = {{"relmse", 1e9}};
+  for (const std::size_t i : {2u, 3u}) results.cells[i].maskFloor = {{"relmse", 0}};
+  EXPECT_EQ(recommend(results, maxError(0.6)).steps[0].verdict, Verdict::better);
+  std::swap(results.cells[0].maskFloor, results.cells[2].maskFloor);
+  std::swap(results.cells[1].maskFloor, results.cells[3].maskFloor);
+  EXPECT_EQ(recommend(results, maxError(0.6)).steps[0].verdict, Verdict::belowFloor);
+}
+
+// Of two frames only the worst one counts, with --worst-frame.
+TEST(Steps, AreBelowTheFloorByTheFramesThatCount) {
+  Results results = resultsOf({{"a", {{"64", "static", 0.5, 0, 1.0}, {"128", "static", 0.4, 0, 2.0}}}});
+  for (const std::size_t i : {0u, 1u}) {
+    results.cells.push_back(results.cells[i]);
+    results.cells.back().frame = 1;
+    results.cells.back().maskMetrics->flipHdr->mean = 0.01;
+    results.cells.back().maskFloor = {{"relmse", 1e9}};
+  }
+  Selection selection;
+  EXPECT_FALSE(candidatesOf(results, selection).candidates[0].clearOfFloor);
+  selection.worstFrame = true;
+  EXPECT_TRUE(candidatesOf(results, selection).candidates[0].clearOfFloor);
+}
+
+TEST(Recommend, OfAnObject_TakesItsErrorAlone) {
+  Results results = withoutNoise(oneScene());
   for (CellResult& cell : results.cells) {
     ObjectError error;
     error.object = "ball";
@@ -142,6 +205,8 @@ TEST(Recommend, OfAnObject_TakesItsErrorAlone) {
   RecommendRequest request = maxError(0.2);
   request.selection.object = "ball";
   EXPECT_EQ(chosen(recommend(results, request)), "resolution=256 refresh=static");
+  results.cells[5].floor = {{"relmse", 1e-6}};  // its own
+  EXPECT_EQ(chosen(recommend(results, request)), "resolution=256 refresh=every-frame");
   request.selection.object = "bal";
   EXPECT_THROW(recommend(results, request), Error);
   request.selection.object = "ball";
@@ -190,8 +255,8 @@ TEST(Steps, GoToTheNearestNumbersOfOneAxis) {
   ASSERT_THAT(answer.steps, SizeIs(3));
   EXPECT_EQ(answer.steps[0].to, "64");
   EXPECT_EQ(answer.steps[1].to, "256");
-  EXPECT_NEAR(answer.steps[1].gain, 0.01, 1e-12);
-  EXPECT_NEAR(answer.steps[1].plusMinus, 0.01 + 0.002, 1e-12);  // nothing is known of what they have in common
+  EXPECT_NEAR(answer.steps[1].gain.value, 0.01, 1e-12);
+  EXPECT_NEAR(answer.steps[1].gain.plusMinus(), 0.01 + 0.002, 1e-12);  // nothing is known of what they have in common
   EXPECT_NEAR(answer.steps[1].costFactor->value, 2.0, 1e-12);
   EXPECT_NEAR(answer.steps[1].costFactor->high, 2.0 * 1.02 / 0.98, 1e-12);
   EXPECT_EQ(answer.steps[2].axis, "refresh");
@@ -214,7 +279,7 @@ TEST(Steps, AgainstTheSameReference_ArePaired) {
   addReplicates(results.cells[2], 0.0004);  // 256: 0.19
   const Step step = recommend(results, maxError(0.25)).steps[1];
   EXPECT_EQ(step.verdict, Verdict::better);
-  EXPECT_NEAR(step.plusMinus, 2.131 * 0.0004 / std::sqrt(15.0), 1e-9);
+  EXPECT_NEAR(step.gain.plusMinus(), 2.131 * 0.0004 / std::sqrt(15.0), 1e-9);
   results.cells[2].referenceHash = "other";
   EXPECT_EQ(recommend(results, maxError(0.25)).steps[1].verdict, Verdict::equal);
 }
@@ -239,11 +304,11 @@ TEST(Steps, OfSeveralFrames_ArePairedFrameByFrame) {
     results.cells.back().maskReplicates.clear();
   }
   const Step step = recommend(results, maxError(0.25)).steps[0];
-  EXPECT_NEAR(step.gain, 0.01, 1e-12);
-  EXPECT_NEAR(step.plusMinus, 2.131 * 0.0004 / std::sqrt(15.0), 1e-9);
+  EXPECT_NEAR(step.gain.value, 0.01, 1e-12);
+  EXPECT_NEAR(step.gain.plusMinus(), 2.131 * 0.0004 / std::sqrt(15.0), 1e-9);
   // Known of one alone, it is not what the two have in common.
   results.cells[3].maskIntervals = {{"flip_hdr", {0.18, 0.20}}};
-  EXPECT_NEAR(recommend(results, maxError(0.25)).steps[0].plusMinus, 0.02, 1e-12);
+  EXPECT_NEAR(recommend(results, maxError(0.25)).steps[0].gain.plusMinus(), 0.02, 1e-12);
 }
 
 TEST(PrintedRecommendation, NamesTheAnswerItsCostTheStepsAndTheFront) {
@@ -341,6 +406,15 @@ TEST(Summary, IsWhatRecommendAnswersToTheLimitThatItPrints) {
     EXPECT_THAT(summaryLines(results), testing::Contains(HasSubstr("(at most 0.209): " + answer)));
     EXPECT_THAT(summaryLines(results), testing::Contains(HasSubstr("--max-error flip_hdr=0.209 ")));
   }
+}
+
+TEST(Summary, WhereNoiseIsNotKnown_SaysSoAndNamesTheSmallestError) {
+  Results results = oneScene();
+  for (CellResult& cell : results.cells) cell.maskIntervals.clear();
+  const std::vector<std::string> lines = summaryLines(results);
+  EXPECT_THAT(lines, testing::Contains("Smallest error: resolution=256 refresh=every-frame at 0.190 (interval not "
+                                       "known), 6.00x"));
+  EXPECT_THAT(lines, testing::Contains(HasSubstr("--max-error flip_hdr=X ")));
 }
 
 TEST(Summary, OfEqualErrors_NamesTheCheapest) {

@@ -63,6 +63,21 @@ TEST(FormatSignificant, KeepsThreeDigits) {
   for (const auto& [value, text] : cases) EXPECT_EQ(formatSignificant(value), text);
 }
 
+TEST(FormatUncertainty, NeverContradictsTheInterval) {
+  struct Case {
+    Estimate estimate;
+    const char* text;
+  };
+  const Case cases[] = {{Estimate::exact(0.2), ""},
+                        {{0.2, 0.19, 0.21}, " +- 0.01"},
+                        {{0.002, 0.0001, 0.005}, " [0.000100, 0.00500]"},         // one-sided: +- 0.003 would hold 0
+                        {{0.00251, 0.00001, 0.00501}, " [1.00e-05, 0.00501]"},    // +- 0.003 by rounding
+                        {{0.00241, -0.00001, 0.00483}, " [-1.00e-05, 0.00483]"},  // +- 0.002 by rounding
+                        {{-0.01, -0.03, 0.01}, " +- 0.02"},
+                        {Estimate::unknown(0.2), " (interval not known)"}};
+  for (const auto& [estimate, text] : cases) EXPECT_EQ(formatUncertainty(estimate), text);
+}
+
 TEST(Sections, GroupScenesAndFramesInTheOrderOfTheRun) {
   const Results results = samples::makeResults();
   const std::vector<Section> sections = sectionsOf(results.cells);
