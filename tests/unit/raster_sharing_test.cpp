@@ -2,7 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "raster/probe_layout.h"
 #include "raster/probe_owners.h"
+#include "raster/probe_resolution.h"
+#include "raster/scheduled_faces.h"
 #include "tests/unit/raster_fixture.h"
 
 namespace pb {
@@ -118,6 +123,75 @@ TEST_P(RasterSharing, WithAllFacesInEveryFrame_IsWhatAFreshSequenceShows) {
           EXPECT_EQ(sequence.readImage(), expected) << "frame " << frame;
         }
       }
+}
+
+// --- Plans
+
+using Ages = std::vector<std::array<std::int64_t, 6>>;
+
+// FrameStats::faceAgeFrames by what ScheduledFaces says.
+class PlannedAges {
+ public:
+  PlannedAges(const Technique& technique, int heightPx) : layout_(technique), schedule_(technique, heightPx) {}
+
+  const Ages& advance(const Snapshot& given) {
+    constexpr std::array<std::int64_t, 6> kNever = {-1, -1, -1, -1, -1, -1};
+    const Snapshot& snapshot = layout_.apply(given);
+    const std::vector<ProbeFace> due = schedule_.advance(snapshot);
+    if (schedule_.probesBefore()) ages_ = reordered(std::move(ages_), *schedule_.probesBefore(), kNever);
+    ages_.resize(snapshot.probes.size(), kNever);
+    for (auto& probe : ages_)
+      for (std::int64_t& age : probe) age += age < 0 ? 0 : 1;
+    for (const ProbeFace& f : due) ages_[static_cast<std::size_t>(f.probe)][static_cast<std::size_t>(f.face)] = 0;
+    return ages_;
+  }
+
+ private:
+  ProbeLayout layout_;
+  ScheduledFaces schedule_;
+  Ages ages_;
+};
+
+constexpr std::array kFramesOfPlans = {0, 8, 15, 22, 27, 30, 40, 58};
+constexpr int kSizeOfPlans = 16;  // A wants 8 texels at first, 16 near B
+
+Technique planned(const std::string& refresh, ResolutionScale scale, const char* sharing) {
+  Technique technique = withResolution(kSizeOfPlans);
+  technique.refresh = parseSpec(refresh);
+  technique.resolutionScale = scale;
+  technique.sharing = parseSpec(sharing);
+  return technique;
+}
+
+// Keys of captures and depths of bounces follow plans, and stand for what is rendered.
+TEST_P(RasterSharing, FacesAreCapturedAsPlanned) {
+  const auto scene = makeThreeMirrors();
+  std::vector<std::string> policies = {"every-n?n=3", "every-n?n=3&together=1", "faces?k=5", "budget?faces=5",
+                                       "distance-scaled?near=0.5&longest=8"};
+  for (const RefreshPolicy& policy : refreshPolicies()) policies.push_back(policy.name);
+  for (const std::string& policy : policies)
+    for (const ResolutionScale scale : {ResolutionScale::fixed, ResolutionScale::distance})
+      for (const char* sharing : {"none", "distance?metres=2", "count?probes=2"}) {
+        const Technique technique = planned(policy, scale, sharing);
+        RasterSequence sequence(device(), technique, kSizeOfPlans, kSizeOfPlans, 1);
+        PlannedAges plan(technique, kSizeOfPlans);
+        for (const int frame : kFramesOfPlans)
+          EXPECT_EQ(sequence.renderFrame(*at(scene, frame)).faceAgeFrames, plan.advance(*at(scene, frame)))
+              << policy << ", " << sharing << ", frame " << frame;
+      }
+}
+
+TEST(PlansToTest, HaveProbesThatAreJoinedAndChangeTheirResolution) {
+  const auto scene = makeThreeMirrors();
+  std::set<std::vector<int>> resolutions;
+  for (const char* sharing : {"none", "distance?metres=2"})
+    for (const int frame : kFramesOfPlans) {
+      const Technique technique = planned("static", ResolutionScale::distance, sharing);
+      ProbeLayout layout(technique);
+      resolutions.insert(probeResolutions(technique, layout.apply(*at(scene, frame)), kSizeOfPlans));
+    }
+  EXPECT_THAT(resolutions, testing::IsSupersetOf({std::vector{8, 16, 8}, std::vector{16, 16, 8}}));
+  EXPECT_THAT(resolutions, testing::Contains(SizeIs(2)));
 }
 
 }  // namespace
