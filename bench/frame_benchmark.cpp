@@ -17,8 +17,14 @@
 namespace pb {
 namespace {
 
-constexpr int kWidthPx = 640, kHeightPx = 360;
 constexpr int kFrames = 11;
+
+struct ImageSize {
+  int widthPx, heightPx;
+  double aspect() const { return static_cast<double>(widthPx) / heightPx; }
+};
+constexpr ImageSize kSmall = {640, 360};
+constexpr ImageSize kLarge = {1280, 720};
 
 RasterDevice& device() {
 #ifdef PROBEBENCH_OSMESA
@@ -53,9 +59,9 @@ double medianRatio(std::vector<double> times, const std::vector<double>& others)
   return median(std::move(times));
 }
 
-std::shared_ptr<const Snapshot> mirrors(std::int64_t count) {
+std::shared_ptr<const Snapshot> mirrors(std::int64_t count, const ImageSize& size) {
   const auto scene = std::make_shared<const Scene>(makeBuiltinScene(parseSpec(fmt::format("mirrors?count={}", count))));
-  return makeSnapshot(scene, 0, "", static_cast<double>(kWidthPx) / kHeightPx);
+  return makeSnapshot(scene, 0, "", size.aspect());
 }
 
 Technique techniqueOf(std::int64_t bounces, std::int64_t resolution, Iterations iterations) {
@@ -69,8 +75,8 @@ Technique techniqueOf(std::int64_t bounces, std::int64_t resolution, Iterations 
 // Frames of a technique, with the time of each.
 class TimedFrames {
  public:
-  TimedFrames(const Technique& technique, std::shared_ptr<const Snapshot> snapshot)
-      : snapshot_(std::move(snapshot)), sequence_(device(), technique, kWidthPx, kHeightPx, 1) {
+  TimedFrames(const Technique& technique, std::shared_ptr<const Snapshot> snapshot, const ImageSize& size)
+      : snapshot_(std::move(snapshot)), sequence_(device(), technique, size.widthPx, size.heightPx, 1) {
     // The first frame compiles shaders and fills maps, the second one sees all of them for the first time.
     for (int warmup = 0; warmup < 2; ++warmup) sequence_.renderFrame(*snapshot_);
     sequence_.finish();
@@ -99,8 +105,9 @@ class TimedFrames {
 // for 8 mirrors, 3 iterations and 256 texels or more.
 void incremental(benchmark::State& state) {
   const std::int64_t count = state.range(0), bounces = state.range(1), resolution = state.range(2);
-  TimedFrames once(techniqueOf(1, resolution, Iterations::bruteForce), mirrors(count));
-  TimedFrames repeated(techniqueOf(bounces, resolution, Iterations::incremental), mirrors(count));
+  const auto snapshot = mirrors(count, kSmall);
+  TimedFrames once(techniqueOf(1, resolution, Iterations::bruteForce), snapshot, kSmall);
+  TimedFrames repeated(techniqueOf(bounces, resolution, Iterations::incremental), snapshot, kSmall);
   for (auto iteration : state) {
     once.render();
     state.SetIterationTime(1e-3 * repeated.render());
@@ -115,6 +122,23 @@ void incremental(benchmark::State& state) {
 BENCHMARK(incremental)
     ->ArgNames({"N", "B", "R"})
     ->ArgsProduct({{5, 8}, {2, 3}, {64, 128, 256, 512, 1024}})
+    ->Iterations(kFrames)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+// A frame of N mirrors that see each other, in B iterations, with maps of R x R texels a face that are all captured
+// anew: the work that a browser does with a cube camera for each mirror.
+void frame(benchmark::State& state) {
+  Technique technique = techniqueOf(state.range(1), state.range(2), Iterations::incremental);
+  technique.textureFilter = TextureFilter::hardware;
+  TimedFrames frames(technique, mirrors(state.range(0), kLarge), kLarge);
+  for (auto iteration : state) state.SetIterationTime(1e-3 * frames.render());
+  state.counters["ms"] = median(frames.wallTimesMs());
+  state.counters["cpu_ms"] = median(frames.cpuTimesMs());
+}
+BENCHMARK(frame)
+    ->ArgNames({"N", "B", "R"})
+    ->ArgsProduct({{1, 3, 5, 8}, {1, 2, 3}, {64, 128, 256, 512}})
     ->Iterations(kFrames)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
