@@ -12,6 +12,7 @@
 #include "bench/integrity.h"
 #include "bench/interrupt.h"
 #include "bench/picture_names.h"
+#include "bench/raster_sequences.h"
 #include "bench/score.h"
 #include "bench/task_queue.h"
 #include "bench/truth.h"
@@ -109,42 +110,27 @@ class ErrorRunner {
   // Sequences that are rendered together; without external ones. With a planted fault each is alone: faults may act
   // otherwise on captures that are shared.
   std::vector<Sequences> groupsOf(std::size_t scene, const Sequences& sequences) const {
-    Sequences own;
-    std::ranges::copy_if(sequences, std::back_inserter(own), [](const auto* sequence) { return !sequence->external; });
-    std::vector<Technique> techniques;
-    int last = suiteScene(scene).startFrame();
-    for (const PlannedSequence* sequence : own) {
-      techniques.push_back(sequence->technique);
-      last = std::max(last, sequence->frames.back());
-    }
+    const RasterSequences own = rasterSequencesOf(sequences, suiteScene(scene).startFrame());
     std::vector<Sequences> groups;
     if (isFaultPlanted(c_.device)) {
-      for (const PlannedSequence* sequence : own) groups.push_back({sequence});
+      for (const PlannedSequence* sequence : own.sequences) groups.push_back({sequence});
       return groups;
     }
     for (const std::vector<std::size_t>& members : captureGroups(
-             techniques, suiteScene(scene).startFrame(), last, [&](int frame) { return snapshot(scene, frame); },
+             own.techniques, own.first, own.last, [&](int frame) { return snapshot(scene, frame); },
              c_.suite.image.heightPx)) {
       Sequences& group = groups.emplace_back();
-      for (const std::size_t member : members) group.push_back(own[member]);
+      for (const std::size_t member : members) group.push_back(own.sequences[member]);
     }
     return groups;
   }
 
   void followBounces(std::size_t scene, const std::vector<const PlannedSequence*>& sequences) {
-    std::vector<const PlannedSequence*> followed;
-    std::vector<Technique> techniques;
-    int last = suiteScene(scene).startFrame();
-    for (const PlannedSequence* sequence : sequences) {
-      if (sequence->external) continue;
-      followed.push_back(sequence);
-      techniques.push_back(sequence->technique);
-      last = std::max(last, sequence->frames.back());
-    }
+    const RasterSequences own = rasterSequencesOf(sequences, suiteScene(scene).startFrame());
     std::vector<std::vector<int>> depths = bounceDepths(
-        techniques, suiteScene(scene).startFrame(), last, [&](int frame) { return snapshot(scene, frame); },
+        own.techniques, own.first, own.last, [&](int frame) { return snapshot(scene, frame); },
         c_.suite.image.heightPx);
-    for (std::size_t i = 0; i < followed.size(); ++i) depths_[followed[i]] = std::move(depths[i]);
+    for (std::size_t i = 0; i < depths.size(); ++i) depths_[own.sequences[i]] = std::move(depths[i]);
   }
 
   // Of the truth that has as many bounces as the sequence at that frame.

@@ -1,16 +1,19 @@
 #include "bench/work.h"
 
 #include <algorithm>
-#include <iterator>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "bench/attribution_steps.h"
 #include "bench/bounce_depth.h"
 #include "bench/capture_groups.h"
 #include "bench/cost_model.h"
 #include "bench/oracle.h"
+#include "bench/raster_sequences.h"
 #include "bench/truth.h"
 #include "raster/captured_faces.h"
+#include "raster/lookup.h"
 #include "raster/probe_layout.h"
 
 namespace pb {
@@ -49,14 +52,14 @@ class WorkCounter {
 
   void countScene(std::size_t scene) {
     snapshots_.clear();
+    truncated_.clear();
+    maps_.clear();
     std::vector<const PlannedSequence*> sequences;
     for (const PlannedSequence& sequence : plan_.sequences)
       if (sequence.scene == scene) sequences.push_back(&sequence);
     if (sequences.empty()) return;
     countReferences(scene, sequences);
-    std::vector<const PlannedSequence*> own;
-    std::ranges::copy_if(sequences, std::back_inserter(own), [](const auto* sequence) { return !sequence->external; });
-    countSequences(scene, own);
+    countSequences(rasterSequencesOf(sequences, suite_.scenes[scene].startFrame()));
     pictures_ += static_cast<double>(sequences.size());
     work_.units[{"intervals", suite_.name}] = pictures_ * megapixels(suite_.image, 1) * kScoring;
   }
@@ -78,37 +81,26 @@ class WorkCounter {
 
   void addMatchedDepths(std::size_t scene, const std::vector<const PlannedSequence*>& sequences,
                         std::set<std::pair<int, std::optional<int>>>& pictures) {
-    const int first = suite_.scenes[scene].startFrame();
-    std::vector<Technique> techniques;
-    std::vector<const PlannedSequence*> own;
-    int last = first;
-    for (const PlannedSequence* sequence : sequences) {
-      if (sequence->external) continue;
-      own.push_back(sequence);
-      techniques.push_back(sequence->technique);
-      last = std::max(last, sequence->frames.back());
-    }
+    const RasterSequences own = rasterSequencesOf(sequences, suite_.scenes[scene].startFrame());
     const auto depths = bounceDepths(
-        techniques, first, last, [&](int frame) { return snapshot(scene, frame); }, suite_.image.heightPx);
-    for (std::size_t i = 0; i < own.size(); ++i)
-      for (const int frame : own[i]->frames)
-        pictures.emplace(frame, depths[i][static_cast<std::size_t>(frame - first)]);
+        own.techniques, own.first, own.last, [&](int frame) { return snapshot(scene, frame); }, suite_.image.heightPx);
+    for (std::size_t i = 0; i < depths.size(); ++i)
+      for (const int frame : own.sequences[i]->frames) {
+        const int depth = depths[i][static_cast<std::size_t>(frame - own.first)];
+        pictures.emplace(frame, depth);
+        depths_[{own.sequences[i], frame}] = depth;
+      }
   }
 
-  void countSequences(std::size_t scene, const std::vector<const PlannedSequence*>& sequences) {
-    if (sequences.empty()) return;
-    const int first = suite_.scenes[scene].startFrame();
-    std::vector<Technique> techniques;
-    int last = first;
-    for (const PlannedSequence* sequence : sequences) {
-      techniques.push_back(sequence->technique);
-      last = std::max(last, sequence->frames.back());
-    }
+  void countSequences(const RasterSequences& own) {
+    if (own.sequences.empty()) return;
+    const std::size_t scene = own.sequences.front()->scene;
     for (const std::vector<std::size_t>& group : captureGroups(
-             techniques, first, last, [&](int frame) { return snapshot(scene, frame); }, suite_.image.heightPx)) {
+             own.techniques, own.first, own.last, [&](int frame) { return snapshot(scene, frame); },
+             suite_.image.heightPx)) {
       const std::size_t capturing =
-          *std::ranges::max_element(group, {}, [&](std::size_t i) { return techniques[i].bounces; });
-      for (const std::size_t i : group) countSequence(*sequences[i], group.size() > 1, i == capturing);
+          *std::ranges::max_element(group, {}, [&](std::size_t i) { return own.techniques[i].bounces; });
+      for (const std::size_t i : group) countSequence(*own.sequences[i], group.size() > 1, i == capturing);
     }
   }
 
@@ -140,15 +132,32 @@ class WorkCounter {
     countAttribution(sequence, probes);
   }
 
-  // The truncated truth and the traced maps, as if no two cells shared them; what is rasterised is little beside that.
+  // Truncated truths and traced maps; what is rasterised is little beside them. Cells of a frame that have the same
+  // depth share them; where depths are not followed for the errors, they count as different.
   void countAttribution(const PlannedSequence& sequence, int probes) {
-    if (sequence.attributedFrames.empty() || !takesOracleMaps(sequence.technique)) return;
-    double traced = megapixels(suite_.image, suite_.image.samplesPerAxis) * suite_.reference.spp;
-    for (const RasterStep& step : rasterSteps(sequence.technique, suite_.attribution->resolution))
-      if (step.isTraced)
-        traced += 6.0 * probes * step.technique.resolution * step.technique.resolution / kMillion *
-                  texelSpp(*suite_.attribution, suite_.reference.spp);
-    work_.units[{"attribution", suite_.name}] += static_cast<double>(sequence.attributedFrames.size()) * traced;
+    const Technique& technique = sequence.technique;
+    if (sequence.attributedFrames.empty() || !takesOracleMaps(technique)) return;
+    double& units = work_.units[{"attribution", suite_.name}];
+    for (const int frame : sequence.attributedFrames) {
+      const auto depth = depths_.find({&sequence, frame});
+      const bool isKnown = depth != depths_.end();
+      // Of local light it is the truth that the cell is matched to, which the store has by then.
+      const bool isStored = isKnown && suite_.reference.diffuse == DiffuseTransport::local;
+      if (!isStored && (!isKnown || truncated_.emplace(frame, depth->second).second))
+        units += megapixels(suite_.image, suite_.image.samplesPerAxis) * suite_.reference.spp;
+      for (const RasterStep& step : rasterSteps(technique, suite_.attribution->resolution))
+        if (step.isTraced && (!isKnown || areNewMaps(frame, depth->second, step.technique)))
+          units += 6.0 * probes * step.technique.resolution * step.technique.resolution / kMillion *
+                   texelSpp(*suite_.attribution, suite_.reference.spp);
+    }
+  }
+
+  // By the settings that the key of bench/traced_maps.cpp depends on.
+  bool areNewMaps(int frame, int depth, const Technique& technique) {
+    return maps_
+        .emplace(frame, depth, technique.resolution, technique.placement, technique.resolutionScale,
+                 technique.refraction, needsDistances(technique))
+        .second;
   }
 
   // Blocks of frames, a warm-up and instrumented frames, and eight plain frames a repetition.
@@ -166,8 +175,12 @@ class WorkCounter {
   const Plan& plan_;
   TruthMaker maker_;
   PlanWork work_;
-  double pictures_ = 0;                                       // that get intervals
-  std::map<int, std::shared_ptr<const Snapshot>> snapshots_;  // of one scene
+  double pictures_ = 0;                                           // that get intervals
+  std::map<std::pair<const PlannedSequence*, int>, int> depths_;  // by frame: of the truth that it is matched to
+  // Of one scene.
+  std::map<int, std::shared_ptr<const Snapshot>> snapshots_;
+  std::set<std::pair<int, int>> truncated_;  // by frame and depth
+  std::set<std::tuple<int, int, int, Placement, ResolutionScale, Refraction, bool>> maps_;
 };
 
 }  // namespace
