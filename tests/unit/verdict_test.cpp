@@ -135,7 +135,7 @@ TEST(PairedVerdict, BelowTheFloor_IsDecidedIfTheDifferenceIsClearAndThatOfMseToo
 // (skewed, with its median 31 % below its mean, as path tracing has it): 25 % of the mean of the batches. In place of
 // HDR-FLIP, an error that is its like: |I - R|^0.7.
 CellResult flatPicture(const std::string& name, double factor, std::uint32_t seed) {
-  constexpr double kTruth = 0.5, kPixels = 4000;
+  constexpr double kTruth = 0.5, kPixels = 10000;
   constexpr std::size_t kBatches = 16;
   std::mt19937 generator(seed);
   const auto noise = [&] { return -std::log((static_cast<double>(generator()) + 0.5) / 0x1p32); };  // of mean 1
@@ -176,7 +176,7 @@ TEST(PairedVerdict, BelowTheFloor_IsNotThatOfSkewedNoise) {
 
 // 5 % too dark is better than 30 % too bright by both metrics, for sure.
 TEST(PairedVerdict, BelowSkewedNoise_KnowsWhatIsMuchWorse) {
-  for (std::uint32_t seed = 1; seed <= 4; ++seed)
+  for (std::uint32_t seed = 1; seed <= 8; ++seed)
     EXPECT_EQ(verdictOf(flatPicture("dark", 0.95, seed), flatPicture("bright", 1.3, seed), "flip_hdr", Region::mask),
               Verdict::better);
 }
