@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <utility>
 
 #include "raster/lookup.h"
 #include "scenes/error.h"
@@ -46,24 +47,41 @@ TEST_P(Device, EveryVariantOfTheShadersCompiles) {
       }
 }
 
-// Of rough glass, which looks up what it reflects and what it refracts, at levels of its map.
+// Of everything that looks up maps of probes: mirrors, and what may be rough and then reads their levels.
+constexpr std::pair<float, Lobe> kSurfacesWithLookups[] = {{shading::kSurfaceMirror, Lobe::smooth},
+                                                           {shading::kSurfaceGlossy, Lobe::mixed},
+                                                           {shading::kSurfaceGlass, Lobe::mixed}};
+
+void expectToCompile(Programs& programs, const SurfaceVariant& variant, const Lookup& lookup, const char* probes,
+                     const char* levels) {
+  const ProbeFilter filter = lookup.isSingleView ? ProbeFilter::none : ProbeFilter::ggxPrefiltered;
+  const std::string defines =
+      techniqueDefines({}) + filterDefines(filter, 64) + lookupDefines({lookup.name, {}}) + probes + levels;
+  EXPECT_NO_THROW(programs.surfaceShowingProbe(variant, defines, lookup.glsl)) << variant.kind << '\n' << defines;
+  const bool isBlended = *probes != 0, hasLevels = *levels != 0;
+  if (!lookup.keepsDirections || isBlended || variant.kind == shading::kSurfaceGlass) return;
+  const bool isMirror = variant.kind == shading::kSurfaceMirror && !hasLevels;
+  const LookupRecord record = isMirror ? LookupRecord::mirror : LookupRecord::general;
+  EXPECT_NO_THROW(programs.surfaceRecordingLookup(variant, record, defines, lookup.glsl)) << variant.kind << '\n'
+                                                                                          << defines;
+}
+
 TEST_P(Device, EveryVariantOfEveryLookupCompiles) {
   RasterDevice::Impl& impl = device().impl();
   impl.context.makeCurrent();
   SurfaceVariant variant;
-  variant.kind = shading::kSurfaceGlass;
-  variant.lobe = Lobe::mixed;
   for (const Lookup& lookup : lookups())
-    for (const bool attributes : {false, true})
-      for (const char* probes : {"", "#define BLENDED_PROBES\n"})
-        for (const char* levels : {"", "#define MIPS\n"}) {
-          if (lookup.isSingleView && *levels != 0) continue;  // refused: its maps have none
-          variant.attributes = attributes;
-          const ProbeFilter filter = lookup.isSingleView ? ProbeFilter::none : ProbeFilter::ggxPrefiltered;
-          const std::string defines =
-              techniqueDefines({}) + filterDefines(filter, 64) + lookupDefines({lookup.name, {}}) + probes + levels;
-          EXPECT_NO_THROW(impl.programs.surfaceShowingProbe(variant, defines, lookup.glsl)) << defines;
-        }
+    for (const auto& [kind, lobe] : kSurfacesWithLookups)
+      for (const bool attributes : {false, true})
+        for (const char* probes : {"", "#define BLENDED_PROBES\n"})
+          for (const char* levels : {"", "#define MIPS\n"}) {
+            // Single views have no levels, and those of others don't depend on what vertices carry.
+            if ((lookup.isSingleView || attributes) && *levels != 0) continue;
+            variant.kind = kind;
+            variant.lobe = lobe;
+            variant.attributes = attributes;
+            expectToCompile(impl.programs, variant, lookup, probes, levels);
+          }
 }
 
 TEST_P(Device, ShaderErrorsBecomeOneException) {
