@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
 #include "bench/results.h"
 #include "bench/verdict.h"
 #include "scenes/files.h"
@@ -76,7 +81,7 @@ TEST(UntilDecided, WithoutNoise_IsDecidedAtOnce) {
   const Workplace workplace(kSmall);
   const ProgramResult run = workplace.run("out", {"--no-cost", "--until-decided", "--budget-s", "1"});
   EXPECT_EQ(run.exitCode, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("all 1 pairs of cells are decided"));
+  EXPECT_THAT(run.err, HasSubstr("the only pair of cells is decided"));
 }
 
 // Two batches leave one degree of freedom: three lookups are not told apart by them.
@@ -109,6 +114,42 @@ TEST(UntilDecided, WhenTheBudgetEnds_KeepsTheResultsAndExitsWith4) {
     EXPECT_EQ(merged.cells[i].maskReplicates, results.cells[i].maskReplicates);
     EXPECT_EQ(merged.cells[i].referenceHash, merged.cells[0].referenceHash);
   }
+}
+
+// With a later budget the ranking would end elsewhere, and the run would be another one.
+TEST(UntilDecided, Resumed_GoesOnWithWhatWasFound) {
+  const Workplace workplace(kNoisy);
+  ASSERT_EQ(workplace.run("out", {"--until-decided", "--budget-s", "0.001"}).exitCode, 4);
+  const std::string ranking = readFile(workplace.path("out/ranking.json"));
+  const Results before = readResults(workplace.path("out"));
+  std::filesystem::remove(workplace.path("out/results.json"));
+  const ProgramResult resumed = workplace.run("out", {"--until-decided", "--budget-s", "100", "--resume"});
+  EXPECT_EQ(resumed.exitCode, 4) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("more samples would take longer than the budget"));
+  EXPECT_EQ(readFile(workplace.path("out/ranking.json")), ranking);
+  const Results after = readResults(workplace.path("out"));
+  ASSERT_EQ(after.cells.size(), before.cells.size());
+  for (std::size_t i = 0; i < after.cells.size(); ++i) EXPECT_EQ(toJson(after.cells[i]), toJson(before.cells[i]));
+  EXPECT_EQ(workplace.run("out").exitCode, 0);  // a run without it, of the same suite, leaves nothing of it
+  EXPECT_FALSE(std::filesystem::exists(workplace.path("out/ranking.json")));
+}
+
+TEST(UntilDecided, Interrupted_LeavesNoFolderOfItsOwn) {
+  const Workplace workplace(kNoisy);
+  RunningProgram program(workplace.command("out", {"--until-decided"}));
+  const std::string folder = workplace.path("out-deciding");
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!std::filesystem::exists(folder) && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait().exitCode, 130);
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+TEST(UntilDecided, PlansWhatIsRenderedTwice) {
+  const Workplace workplace(kNoisy);
+  EXPECT_THAT(workplace.run("out", {"--until-decided", "--dry-run"}).out,
+              HasSubstr("\n--until-decided renders 3 raster frames beforehand, with "));
 }
 
 }  // namespace

@@ -173,6 +173,34 @@ TEST(Run, Interrupted_KeepsFinishedCellsAndGoesOnWithResume) {
   EXPECT_EQ(workplace.cells("stopped"), workplace.cells("whole"));
 }
 
+// All four techniques share captures; of each something else is missing: nothing, a frame, the other frame, everything.
+TEST(Resume, WithOnlySomeMembersOfAGroupOpen_HasTheSameBits) {
+  const SmallSuite workplace;
+  const std::vector<std::string> axes = {
+      "--scene", "builtin:mirror-cube", "--set", "refresh=every-frame",
+      "--set",   "resolution=16",       "--set", "lookup=infinite,box-proxy,sphere-proxy,distance-impostor"};
+  const ProgramResult whole = workplace.run("run", axes);
+  ASSERT_EQ(whole.exitCode, 0) << whole.err;
+  EXPECT_THAT(whole.err, HasSubstr("of which 6 share another's captures"));
+  const std::vector<std::string> cells = workplace.cells("run");
+  std::string kept;
+  for (const CellResult& cell : readResults(workplace.path("run")).cells) {
+    const auto has = [&](const char* lookup) {
+      return cell.key().find(std::string("lookup=") + lookup) != std::string::npos;
+    };
+    if (has("infinite") || (has("box-proxy") && cell.frame == 0) || (has("sphere-proxy") && cell.frame == 2))
+      kept += toJson(cell) + '\n';
+  }
+  writeFileAtomically(workplace.path("run/journal.jsonl"), kept);
+  fs::remove(workplace.path("run/results.json"));
+  std::vector<std::string> resume = axes;
+  resume.emplace_back("--resume");
+  const ProgramResult resumed = workplace.run("run", resume);
+  ASSERT_EQ(resumed.exitCode, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("errors of mirror-cube: 4 of 4"));
+  EXPECT_EQ(workplace.cells("run"), cells);
+}
+
 // One level triangle of clear glass: every path that meets it chooses between the sky above and the ground below.
 constexpr const char* kGlassTriangle = R"({
   "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],

@@ -61,6 +61,23 @@ TEST(Rates, OfSmallRuns_DontReplaceThoseOfLargeOnes) {
   EXPECT_EQ(rates.secondsPerUnit({"cost", "quick"}), 3.0);
 }
 
+TEST(PrintedWork, WithUntilDecided_CountsWhatIsRenderedTwice) {
+  const TemporaryFolder folder;
+  Rates rates(folder.path(), "here");
+  rates.record({"errors", "a"}, 1, 2);
+  PlanWork deciding;
+  deciding.frames = 4;
+  deciding.captures = 24;
+  deciding.units = {{{"errors", "a"}, 10}, {{"references", "a"}, 7}, {{"control", "s"}, 1}};
+  PlanWork work;
+  work.units[{"errors", "a"}] = 30;
+  work.addDeciding(deciding);
+  const std::string text = printWork(work, rates);
+  EXPECT_THAT(text, HasSubstr("--until-decided renders 4 raster frames beforehand, with 24 captured faces\n"));
+  EXPECT_THAT(text, HasSubstr("should take about 1:20 (deciding 0:20, errors 1:00)"));  // its references are the run's
+  EXPECT_THAT(text, HasSubstr("--until-decided may ask for more samples"));
+}
+
 TEST(PrintedWork, SaysHowLongItTakesAndWhatIsNotKnown) {
   const TemporaryFolder folder;
   Rates rates(folder.path(), "here");
