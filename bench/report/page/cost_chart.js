@@ -1,7 +1,7 @@
 // Error against cost, with the Pareto front.
 import {Chart, numberAxis, scaleFor} from "./chart.js";
 import {bars, colourScale, legend, line, metricTitle, symbols} from "./chart_parts.js";
-import {COSTS, isMoreBetter, meanError, meanInterval} from "./model.js";
+import {COSTS, isMoreBetter, isNoiseKnown, meanError, meanInterval} from "./model.js";
 import {significant, sortedValues} from "./numbers.js";
 import {paretoFront} from "./pareto.js";
 
@@ -20,6 +20,7 @@ function choiceOf(sequence, question, cost) {
   if (!Number.isFinite(error) || !Number.isFinite(x)) return null;
   return {
     sequence,
+    isNoiseKnown: isNoiseKnown(sequence, question),
     x,
     y: error,
     low,
@@ -51,11 +52,12 @@ function scatterSpec(view, question, cost, colours) {
     title: `${c.sequence.label}\n${metricTitle(question)} ${significant(c.y)}\n${cost.title} ${significant(c.x)}`,
   });
   const front = paretoFront(choices, question).map(pointOf);
+  const noise = choices.every((c) => c.isNoiseKnown) ? "" : " How much of these errors is noise is not known.";
   const values = choices.map(pointOf);
   const distinct = (field) => sortedValues([...new Set(values.map((v) => v[field]))]);
   const shapes = second && distinct("shape").length > 1;
   return {
-    note: `${front.length} of ${choices.length} techniques are on the Pareto front: nothing is as good and better in one by more than the intervals. Click a point to see its picture.`,
+    note: `${front.length} of ${choices.length} techniques are on the Pareto front: nothing is as good in both and better in one for sure.${noise} Click a point to see its picture.`,
     spec: {
       data: [
         {name: "points", values},

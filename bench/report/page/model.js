@@ -82,11 +82,30 @@ export function p95Error(sequence, question) {
   return badness.length ? sign * badness[Math.ceil(0.95 * badness.length - 1e-9) - 1] : NaN;
 }
 
-// Of the mean: the mean of the frames' intervals, as if they failed together.
+// Of the mean: as wide as those of the frames that have one are on average, as if they failed together. The rule of
+// meanOverFrames() in bench/candidates.cpp. Undefined where none has one.
 export function meanInterval(sequence, question) {
-  const intervals = sequence.cells.map((cell) => intervalOf(cell, question));
-  if (intervals.some((interval) => !interval)) return undefined;
-  return [mean(intervals.map((i) => i[0])), mean(intervals.map((i) => i[1]))];
+  const frames = sequence.cells
+    .map((cell) => ({error: errorOf(cell, question), interval: intervalOf(cell, question)}))
+    .filter(({error}) => !Number.isNaN(error));
+  const known = frames.filter(({interval}) => interval);
+  if (!known.length) return undefined;
+  const error = mean(frames.map((f) => f.error));
+  return [
+    error - mean(known.map(({error: e, interval: [low]}) => e - low)),
+    error + mean(known.map(({error: e, interval: [, high]}) => high - e)),
+  ];
+}
+
+// Whether the reference's noise leaves nothing to ask about the error of a sequence: intervals are known, or there is
+// no noise. The rule of isNoiseKnown() in bench/report_verdict.cpp.
+export function isNoiseKnown(sequence, question) {
+  if (meanInterval(sequence, question)) return true;
+  return sequence.cells.every((cell) => {
+    const source = question.truth === "matched" ? cell.matched : cell;
+    const floor = Object.values((question.region === "mask" ? source?.mask_floor : source?.floor) ?? {});
+    return floor.length > 0 && floor.every((value) => decode(value) === 0);
+  });
 }
 
 const techniqueText = (technique) =>
