@@ -45,6 +45,21 @@ refresh = ["static"]
 bounces = [1, 2]
 )";
 
+// The first technique, whose single iteration repeats no lookups, shares captures with brute force of two.
+constexpr const char* kIterationsSuite = R"(
+schema = 1
+name = "sharing-iterations"
+image = { size = [32, 18], samples = 4 }
+reference = { spp = 2 }
+cost = { repetitions = 0 }
+technique = { resolution = 16 }
+[[scene]]
+use = "builtin:mirror-cube"
+[grid]
+iterations = ["incremental", "brute-force"]
+bounces = [1, 2]
+)";
+
 #ifdef PROBEBENCH_OSMESA
 const std::vector<const char*> kBackends = {"osmesa", "egl"};
 #else
@@ -65,17 +80,25 @@ class Sharing : public testing::TestWithParam<const char*> {
   void SetUp() override { writeFileAtomically(folder_.file("suite.toml"), kSuite); }
 
   // By key: the cells as they stand in results.json, equal texts mean equal bits, and their pictures.
-  std::map<std::string, std::pair<std::string, ImageRgba>> run(const std::string& out,
-                                                               std::vector<std::string> more = {}) {
+  using Cells = std::map<std::string, std::pair<std::string, ImageRgba>>;
+  Cells run(const std::string& out, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments = {"--gl",  GetParam(),        "run",     folder_.file("suite.toml"),
                                           "--out", folder_.file(out), "--store", folder_.file("store")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult result = runProgram(arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
-    std::map<std::string, std::pair<std::string, ImageRgba>> cells;
+    Cells cells;
     for (const CellResult& cell : readResults(folder_.file(out)).cells)
       cells[cell.key()] = {toJson(cell), readImage(folder_.file(out + "/" + cell.pictures.rendered)).pixels};
     return cells;
+  }
+
+  static void expectAmong(const Cells& together, const Cells& alone) {
+    for (const auto& [key, cell] : alone) {
+      ASSERT_TRUE(together.contains(key)) << key;
+      EXPECT_EQ(cell.first, together.at(key).first);
+      EXPECT_TRUE(cell.second == together.at(key).second) << key;
+    }
   }
 
   TemporaryFolder folder_;
@@ -87,12 +110,17 @@ TEST_P(Sharing, OfCaptures_ChangesNoBitOfAnyCell) {
   for (std::size_t i = 0; i < kAlone.size(); ++i) {
     const auto alone = run("alone" + std::to_string(i), {"--only", kAlone[i]});
     EXPECT_EQ(alone.size(), 2u + 2u + 1u) << kAlone[i] << ": frames of one sequence a scene";
-    for (const auto& [key, cell] : alone) {
-      ASSERT_TRUE(together.contains(key)) << key;
-      EXPECT_EQ(cell.first, together.at(key).first);
-      EXPECT_TRUE(cell.second == together.at(key).second) << key;
-    }
+    expectAmong(together, alone);
   }
+}
+
+TEST_P(Sharing, OfIterationsThatRepeatNothing_ChangesNoBitOfAnyCell) {
+  writeFileAtomically(folder_.file("suite.toml"), kIterationsSuite);
+  const auto together = run("together");
+  EXPECT_EQ(together.size(), 4u);
+  const auto alone = run("alone", {"--only", "bounces=2 "});  // of which none shares with the other
+  EXPECT_EQ(alone.size(), 2u);
+  expectAmong(together, alone);
 }
 
 TEST_P(Sharing, IsStatedByADryRun) {
