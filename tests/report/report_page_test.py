@@ -357,6 +357,24 @@ class ReportPage(unittest.TestCase):
         self.assertIn("probe MiB", page.text("#errors"))
         self.assertNotIn("null", page.text("#cell"))
 
+    def cost_figure(self, page, find):
+        return page.script("const figure = [...document.querySelectorAll('#errors figure')].find((f) => f.textContent.includes('Error against cost')); return " + find)
+
+    def test_means_over_frames_have_the_intervals_of_those_that_have_one(self):
+        def intervals_of_the_last_frame(cells):
+            for cell in cells:
+                error = cell["mask_metrics"]["flip_hdr"]["mean"]
+                cell["mask_intervals"] = {"flip_hdr": [0.8 * error, 1.2 * error]} if cell["frame"] == 4 else {}
+                cell["mask_floor"] = {"mse": 1e-6, "relmse": 1e-6}
+        page = self.changed_run("some-intervals", intervals_of_the_last_frame)
+        self.choose_scene(page, "teapot")
+        bars = "[...figure.querySelectorAll('.mark-rule.role-mark line')].map((l) => Math.abs(l.getAttribute('y2') ?? 0)).filter((height) => height > 1).length"
+        self.assertEqual(self.cost_figure(page, bars), 8)  # one a technique
+        self.assertNotIn("not known", self.cost_figure(page, "figure.textContent"))
+        self.choose_scene(page, "mirrors")  # of which no frame has any, though there is noise
+        self.assertEqual(self.cost_figure(page, bars), 0)
+        self.assertIn("How much of these errors is noise is not known.", self.cost_figure(page, "figure.textContent"))
+
     def test_cells_that_the_metrics_order_oppositely_are_shown_as_pictures(self):
         def dispute(cells):
             first, second = cells[0], cells[1]
