@@ -61,6 +61,34 @@ TEST(Rates, OfSmallRuns_DontReplaceThoseOfLargeOnes) {
   EXPECT_EQ(rates.secondsPerUnit({"cost", "quick"}), 3.0);
 }
 
+// What is traced for attributions of a still scene, of cells of these lookups.
+double tracedFor(const std::string& lookups) {
+  const TemporaryFolder folder;
+  writeFileAtomically(folder.file("suite.toml"), R"(
+schema = 1
+name = "attributed"
+image = { size = [32, 18], samples = 1 }
+[[scene]]
+use = "builtin:planar-floor"
+[grid]
+lookup = [)" + lookups + R"(]
+[attribution]
+cells = "lookup"
+)");
+  Suite suite = loadSuite(folder.file("suite.toml"));
+  const Scenes scenes = loadScenes(suite);
+  const PlanWork work = computeWork(suite, scenes, makePlan(suite), ReferenceStore(folder.path() / "store"));
+  return work.units.at({"attribution", "attributed"});
+}
+
+// Maps with distances are others.
+TEST(PlanWork, CountsMapsThatAttributionsShareOnce) {
+  const double once = tracedFor(R"("infinite")");
+  EXPECT_GT(once, 0);
+  EXPECT_EQ(tracedFor(R"("infinite", "box-proxy", "sphere-proxy")"), once);
+  EXPECT_EQ(tracedFor(R"("infinite", "box-proxy", "distance-impostor")"), 2 * once);
+}
+
 TEST(PrintedWork, WithUntilDecided_CountsWhatIsRenderedTwice) {
   const TemporaryFolder folder;
   Rates rates(folder.path(), "here");
