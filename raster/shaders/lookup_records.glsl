@@ -16,7 +16,7 @@ layout(std430, binding = kLookupListBlock) buffer LookupListBlock { uvec4 lists[
 // first, which are all records of the region: one for lists of even and one for lists of odd number.
 layout(std430, binding = kLookupEntryBlock) buffer LookupEntryBlock { uint entries[]; };
 
-const uint kRecordsPerGroup = 64u;
+const uint kRecordsPerGroup = 512u;
 uint groupsOf(uint records) { return (records + kRecordsPerGroup - 1u) / kRecordsPerGroup; }
 
 // Returns the first entry's place on the list.

@@ -5,7 +5,7 @@
 #include "raster/shaders/lookup_records.glsl"
 #include "raster/shaders/settled.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 512) in;
 layout(binding = kProbeUnit) uniform samplerCube probe;
 layout(binding = kLookupTargetImage) writeonly uniform image2DArray target;
 #ifdef MIRROR_RECORDS
