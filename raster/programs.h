@@ -50,8 +50,8 @@ struct SurfaceVariant {
 // What is kept of a lookup (raster/shaders/lookup_records.glsl): of mirrors that are everywhere the same, less.
 enum class LookupRecord { mirror, general };
 
-// The environment's gradient and ambient light as constants of the shader: llvmpipe 22 branches for each number that it
-// reads of a uniform block.
+// The environment's gradient and ambient light as constants of the shader: llvmpipe 22 takes long over what it reads of
+// uniform blocks (docs/performance.md).
 std::string environmentConstants(const Environment& environment);
 
 // What the technique sets for the shading of all surfaces.

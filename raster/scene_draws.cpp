@@ -60,7 +60,7 @@ std::vector<float> kindsOf(const std::vector<shading::Light>& lights) {
   return kinds;
 }
 
-// Lights of known number and kind: llvmpipe 22 gathers what is read at an index that it doesn't know, lane by lane.
+// Lights of known number and kind: llvmpipe 22 takes long over loops that it can't unroll (docs/performance.md).
 // More than fit into the smallest uniform block that OpenGL 4.5 promises (16 KiB) are read from a storage block.
 std::string punctualLightDefines(const std::vector<float>& kinds) {
   constexpr std::size_t kMaxKnown = 16384 / sizeof(shading::Light);
