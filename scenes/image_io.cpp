@@ -1,27 +1,21 @@
 #include "scenes/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <string_view>
 
 #include "scenes/error.h"
 #include "scenes/files.h"
+#include "scenes/image_codecs.h"
 #include "scenes/shading/shading.h"
+#include "scenes/shared_library.h"
 
 namespace pb {
 namespace {
-
-// Files that declare more than this (16384 x 16384) are refused before memory is allocated for them.
-constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
-constexpr int kMaxChannels = 64;
 
 struct Magic {
   std::string_view bytes;
@@ -43,9 +37,6 @@ constexpr std::array kMagics = {
     Magic{"BM", "bmp"},
     Magic{"RIFF", "webp"},
 };
-
-// OpenImageIO's messages may have several lines; ours have one.
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 std::string_view asText(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -79,79 +70,16 @@ std::string formatOf(std::span<const std::byte> bytes, const std::string& name) 
   return magic->format;
 }
 
-// An opened image in memory, already checked for sane dimensions.
-class ImageReader {
- public:
-  ImageReader(std::span<const std::byte> bytes, const std::string& name)
-      : name_(name), memory_(const_cast<std::byte*>(bytes.data()), bytes.size()) {
-    const std::string format = formatOf(bytes, name);
-    input_ = OIIO::ImageInput::create(format);
-    if (!input_) throwEnvironmentError("OpenImageIO on this machine has no reader for {} ('{}')", format, name);
-    OIIO::ImageSpec configuration;
-    configuration["oiio:UnassociatedAlpha"] = 1;
-    OIIO::ImageSpec spec;
-    if (!input_->set_ioproxy(&memory_) || !input_->open("memory." + format, spec, configuration)) fail();
-    checkSpec();
-  }
+// Loaded once, by whichever thread comes first.
+const ImageCodecs& codecs() {
+  static const ImageCodecs& loaded = *SharedLibrary(kImageCodecsFile).symbol<const ImageCodecs>(kImageCodecsSymbol);
+  return loaded;
+}
 
-  const OIIO::ImageSpec& spec() const { return input_->spec(); }
-
-  // The first channels of the display window, interleaved; 0 where the file's data window leaves it uncovered.
-  std::vector<float> readChannels(int channels) {
-    const OIIO::ImageSpec& s = spec();
-    std::vector<float> data(pixelCount(s.width, s.height) * static_cast<std::size_t>(channels));
-    if (!input_->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, data.data()) || input_->has_error()) fail();
-    roundToStoredSteps(data);
-    const bool whole = s.x == s.full_x && s.y == s.full_y && s.width == s.full_width && s.height == s.full_height;
-    return whole ? data : placeInDisplayWindow(data, channels);
-  }
-
- private:
-  static std::size_t pixelCount(int width, int height) {
-    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  }
-
-  [[noreturn]] void fail() {
-    const std::string reason = firstLine(input_->geterror());
-    throwInputError("image '{}' can't be decoded: {}", name_, reason.empty() ? "it is damaged" : reason);
-  }
-
-  void checkSpec() {
-    const OIIO::ImageSpec& s = spec();
-    if (s.deep || s.depth > 1) throwInputError("flat images are wanted, '{}' is deep or volumetric", name_);
-    for (const auto& [width, height] : {std::pair(s.width, s.height), std::pair(s.full_width, s.full_height)})
-      if (width < 1 || height < 1 || std::int64_t{width} * height > kMaxPixels)
-        throwInputError("images of 1 to {} pixels are read, '{}' declares {} x {}", kMaxPixels, name_, width, height);
-    if (s.nchannels < 1 || s.nchannels > kMaxChannels)
-      throwInputError("images of 1 to {} channels are read, '{}' has {}", kMaxChannels, name_, s.nchannels);
-  }
-
-  // Integers were multiplied by the float 1/255, which is not always the float nearest to i/255.
-  void roundToStoredSteps(std::vector<float>& data) const {
-    const OIIO::TypeDesc type = spec().format;
-    if (type != OIIO::TypeDesc::UINT8 && type != OIIO::TypeDesc::UINT16) return;
-    const float largest = type == OIIO::TypeDesc::UINT8 ? 255.0f : 65535.0f;
-    for (float& value : data) value = std::round(value * largest) / largest;
-  }
-
-  std::vector<float> placeInDisplayWindow(const std::vector<float>& data, int channels) const {
-    const OIIO::ImageSpec& s = spec();
-    const auto n = static_cast<std::size_t>(channels);
-    std::vector<float> placed(pixelCount(s.full_width, s.full_height) * n, 0.0f);
-    const int x0 = std::max(s.x, s.full_x);
-    const int x1 = std::min(s.x + s.width, s.full_x + s.full_width);
-    for (int y = std::max(s.y, s.full_y); x0 < x1 && y < std::min(s.y + s.height, s.full_y + s.full_height); ++y) {
-      const std::size_t from = pixelCount(s.width, y - s.y) + static_cast<std::size_t>(x0 - s.x);
-      const std::size_t to = pixelCount(s.full_width, y - s.full_y) + static_cast<std::size_t>(x0 - s.full_x);
-      std::copy_n(&data[from * n], static_cast<std::size_t>(x1 - x0) * n, &placed[to * n]);
-    }
-    return placed;
-  }
-
-  std::string name_;
-  OIIO::Filesystem::IOMemReader memory_;
-  std::unique_ptr<OIIO::ImageInput> input_;
-};
+DecodedImage decode(std::span<const std::byte> bytes, const std::string& name, int maxChannels) {
+  const std::string format = formatOf(bytes, name);
+  return codecs().decode(bytes, format, name, maxChannels);
+}
 
 glm::vec4 rgbaOf(std::span<const float> channels, int alphaChannel) {
   const std::size_t colors = channels.size() - (alphaChannel >= 0 ? 1 : 0);
@@ -161,23 +89,8 @@ glm::vec4 rgbaOf(std::span<const float> channels, int alphaChannel) {
   return pixel;
 }
 
-// Encodes in memory, so that a failed write can't leave part of a file and formats need no files of their own.
-std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
-  auto output = OIIO::ImageOutput::create(format);
-  if (!output) throwEnvironmentError("OpenImageIO on this machine has no writer for {}", format);
-  std::vector<unsigned char> buffer;
-  OIIO::Filesystem::IOVecOutput memory(buffer);
-  if (!output->set_ioproxy(&memory) || !output->open(std::string("memory.") + format, spec) ||
-      !output->write_image(type, pixels) || !output->close())
-    throwEnvironmentError("a {} x {} image can't be encoded as {}: {}", spec.width, spec.height, format,
-                          firstLine(output->geterror()));
-  return {buffer.begin(), buffer.end()};
-}
-
-OIIO::ImageSpec exrSpec(int width, int height, int channels) {
-  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
-  spec["compression"] = "zip";
-  return spec;
+std::string encodeFloats(int width, int height, const std::vector<std::string>& channels, const float* values) {
+  return codecs().encode({"openexr", width, height, channels, ChannelType::float32, values});
 }
 
 // NaN becomes 0.
@@ -188,14 +101,14 @@ Integer quantised(float value) {
 }
 
 template <class Integer>
-std::string encodePngAs(const ImageRgba& encoded, int channels, OIIO::TypeDesc type) {
+std::string encodePngAs(const ImageRgba& encoded, int channels, ChannelType type) {
+  static const std::vector<std::string> kNames = {"R", "G", "B", "A"};
   std::vector<Integer> values;
   values.reserve(encoded.size() * static_cast<std::size_t>(channels));
   for (const glm::vec4& pixel : encoded)
     for (int c = 0; c < channels; ++c) values.push_back(quantised<Integer>(pixel[c]));
-  OIIO::ImageSpec spec(encoded.width(), encoded.height(), channels, type);
-  spec["oiio:UnassociatedAlpha"] = 1;
-  return encode("png", spec, type, values.data());
+  return codecs().encode(
+      {"png", encoded.width(), encoded.height(), {kNames.begin(), kNames.begin() + channels}, type, values.data()});
 }
 
 ImageRgba withOpaqueAlpha(const Image& image) {
@@ -219,16 +132,11 @@ LoadedImage readImage(const std::string& path) {
 }
 
 LoadedImage readImage(std::span<const std::byte> bytes, const std::string& name) {
-  ImageReader reader(bytes, name);
-  const OIIO::ImageSpec& spec = reader.spec();
-  const int channels = std::min(spec.nchannels, 4);
-  const int alphaChannel = spec.alpha_channel < channels ? spec.alpha_channel : -1;
-  const std::vector<float> data = reader.readChannels(channels);
-  LoadedImage image{ImageRgba(spec.full_width, spec.full_height),
-                    spec.format.is_floating_point() ? Encoding::linear : Encoding::srgb};
-  const auto n = static_cast<std::size_t>(channels);
+  const DecodedImage decoded = decode(bytes, name, 4);
+  LoadedImage image{ImageRgba(decoded.width, decoded.height), decoded.isFloat ? Encoding::linear : Encoding::srgb};
+  const std::size_t n = decoded.channelNames.size();
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    image.pixels[i] = rgbaOf(std::span(data).subspan(i * n, n), alphaChannel);
+    image.pixels[i] = rgbaOf(std::span(decoded.values).subspan(i * n, n), decoded.alphaChannel);
   return image;
 }
 
@@ -243,27 +151,25 @@ float srgbFromLinear(float linear) { return shading::srgbEncode(linear); }
 
 std::vector<NamedPlane> readExrChannels(const std::string& path) {
   const std::string bytes = readFile(path);
-  ImageReader reader(std::as_bytes(std::span(bytes)), path);
-  const OIIO::ImageSpec& spec = reader.spec();
-  const std::vector<float> data = reader.readChannels(spec.nchannels);
+  const DecodedImage decoded = decode(std::as_bytes(std::span(bytes)), path, std::numeric_limits<int>::max());
   std::vector<NamedPlane> planes;
-  const auto n = static_cast<std::size_t>(spec.nchannels);
+  const std::size_t n = decoded.channelNames.size();
   for (std::size_t c = 0; c < n; ++c) {
-    planes.push_back({spec.channelnames[c], Plane(spec.full_width, spec.full_height)});
-    for (std::size_t i = 0; i < planes[c].plane.size(); ++i) planes[c].plane[i] = data[i * n + c];
+    planes.push_back({decoded.channelNames[c], Plane(decoded.width, decoded.height)});
+    for (std::size_t i = 0; i < planes[c].plane.size(); ++i) planes[c].plane[i] = decoded.values[i * n + c];
   }
   return planes;
 }
 
 std::string encodeExr(const Image& image) {
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-  return encode("openexr", exrSpec(image.width(), image.height(), 3), OIIO::TypeDesc::FLOAT, image.data());
+  return encodeFloats(image.width(), image.height(), {"R", "G", "B"}, &image.data()->x);
 }
 
 std::string encodePng(const ImageRgba& encoded, int bitsPerChannel) {
   const bool opaque = std::ranges::all_of(encoded, [](glm::vec4 p) { return p.w >= 1.0f; });
-  return bitsPerChannel == 8 ? encodePngAs<std::uint8_t>(encoded, opaque ? 3 : 4, OIIO::TypeDesc::UINT8)
-                             : encodePngAs<std::uint16_t>(encoded, opaque ? 3 : 4, OIIO::TypeDesc::UINT16);
+  return bitsPerChannel == 8 ? encodePngAs<std::uint8_t>(encoded, opaque ? 3 : 4, ChannelType::uint8)
+                             : encodePngAs<std::uint16_t>(encoded, opaque ? 3 : 4, ChannelType::uint16);
 }
 
 void writeExr(const std::string& path, const Image& image) { writeFileAtomically(path, encodeExr(image)); }
@@ -271,15 +177,14 @@ void writeExr(const std::string& path, const Image& image) { writeFileAtomically
 void writeExr(const std::string& path, const std::vector<NamedPlane>& channels) {
   if (channels.empty()) throwInputError("an EXR file wants at least one channel, '{}' would have none", path);
   const Plane& first = channels.front().plane;
-  OIIO::ImageSpec spec = exrSpec(first.width(), first.height(), static_cast<int>(channels.size()));
-  spec.channelnames.clear();
+  std::vector<std::string> names;
   std::vector<float> data(first.size() * channels.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    spec.channelnames.push_back(channels[c].name);
+    names.push_back(channels[c].name);
     assert(channels[c].plane.size() == first.size());
     for (std::size_t i = 0; i < first.size(); ++i) data[i * channels.size() + c] = channels[c].plane[i];
   }
-  writeFileAtomically(path, encode("openexr", spec, OIIO::TypeDesc::FLOAT, data.data()));
+  writeFileAtomically(path, encodeFloats(first.width(), first.height(), names, data.data()));
 }
 
 void writePngEncoded(const std::string& path, const Image& encoded) {

@@ -1,4 +1,4 @@
-// Image files, through OpenImageIO and nowhere else.
+// Image files. OpenImageIO, which does the work, is loaded with the first image (scenes/image_codecs.h).
 #pragma once
 
 #include <cstddef>

@@ -5,12 +5,31 @@
 #include <GL/osmesa.h>
 
 #include <array>
+
+#include "scenes/shared_library.h"
 #endif
 
 namespace pb::gl {
 
 #ifdef PROBEBENCH_OSMESA
 namespace {
+
+// Loaded with the first context, as drivers are: with LLVM behind it, linking took 20 ms of the start of every command.
+struct Osmesa {
+  SharedLibrary library{"libOSMesa.so.8"};
+  decltype(&OSMesaCreateContextAttribs) createContext =
+      library.symbol<decltype(OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
+  decltype(&OSMesaDestroyContext) destroyContext =
+      library.symbol<decltype(OSMesaDestroyContext)>("OSMesaDestroyContext");
+  decltype(&OSMesaMakeCurrent) makeCurrent = library.symbol<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent");
+  decltype(&OSMesaGetProcAddress) getProcAddress =
+      library.symbol<decltype(OSMesaGetProcAddress)>("OSMesaGetProcAddress");
+};
+
+const Osmesa& osmesa() {
+  static const Osmesa loaded;
+  return loaded;
+}
 
 class OsmesaContext : public NativeContext {
  public:
@@ -29,17 +48,17 @@ class OsmesaContext : public NativeContext {
                               OSMESA_CONTEXT_MINOR_VERSION,
                               5,
                               0};
-    context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+    context_ = osmesa().createContext(attributes, nullptr);
     if (context_ == nullptr) throwEnvironmentError("OSMesa offers no OpenGL 4.5 core context");
   }
-  ~OsmesaContext() override { OSMesaDestroyContext(context_); }
+  ~OsmesaContext() override { osmesa().destroyContext(context_); }
 
   void bind() override {
-    if (OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE)
+    if (osmesa().makeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE)
       throwEnvironmentError("OSMesaMakeCurrent failed");
   }
-  void unbind() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
-  Function function(const char* name) const override { return OSMesaGetProcAddress(name); }
+  void unbind() override { osmesa().makeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+  Function function(const char* name) const override { return osmesa().getProcAddress(name); }
 
  private:
   OSMesaContext context_ = nullptr;
