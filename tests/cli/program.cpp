@@ -28,7 +28,7 @@ void limitFileSize(long bytes) {
 }  // namespace
 
 RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const ProgramOptions& options) {
-  std::vector<char*> argv = {const_cast<char*>(PROBEBENCH_PROGRAM)};
+  std::vector<char*> argv = {const_cast<char*>(options.program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_ = ::fork();
@@ -37,7 +37,7 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const 
   redirect(STDOUT_FILENO, options.standardOutput.empty() ? folder_.file("out") : options.standardOutput);
   redirect(STDERR_FILENO, folder_.file("err"));
   if (options.maxFileBytes > 0) limitFileSize(options.maxFileBytes);
-  ::execv(PROBEBENCH_PROGRAM, argv.data());
+  ::execv(options.program.c_str(), argv.data());
   ::_exit(127);
 }
 

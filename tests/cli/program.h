@@ -18,6 +18,7 @@ struct ProgramResult {
 struct ProgramOptions {
   long maxFileBytes = 0;       // no file may grow beyond this: a full disk that root can't write to either; 0: no limit
   std::string standardOutput;  // a file in place of the captured one
+  std::string program = PROBEBENCH_PROGRAM;
 };
 
 ProgramResult runProgram(const std::vector<std::string>& arguments, const ProgramOptions& options = {});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -122,6 +123,27 @@ TEST(Help, GoesToStandardOutputAndNamesEveryCommand) {
   for (const char* command :
        {"run", "render", "compare", "report", "check", "bless", "merge", "axes", "scenes", "certify", "selftest-gate"})
     EXPECT_THAT(result.out, HasSubstr(std::string("\n  ") + command + " "));
+}
+
+// What brings hundreds of libraries is loaded when it is needed: linked, it made every command start 0.3 s later.
+TEST(Start, LoadsNeitherImageLibrariesNorDrivers) {
+  const TemporaryFolder folder;
+  const std::string list = folder.file("libraries");  // as ldd has them
+  ASSERT_EQ(std::system(("LD_TRACE_LOADED_OBJECTS=1 '" PROBEBENCH_PROGRAM "' > '" + list + "'").c_str()), 0);
+  const std::string libraries = readFile(list);
+  EXPECT_THAT(libraries, HasSubstr("libtbb"));
+  for (const char* library : {"libOpenImageIO", "libOSMesa", "libLLVM"})
+    EXPECT_THAT(libraries, testing::Not(HasSubstr(library)));
+}
+
+TEST(Start, WithoutTheModuleOfImages_OnlyWhatNeedsImagesFails) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(PROBEBENCH_PROGRAM, folder.file("probebench"));
+  ProgramOptions options;
+  options.program = folder.file("probebench");
+  EXPECT_EQ(runProgram({"scenes", "list"}, options).exitCode, 0);
+  expectRefused(runProgram({"compare", kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.test.png"}, options), 3,
+                "probebench_images.so");
 }
 
 TEST(Axes, ListAndInfo_AgreeOnNames) {
