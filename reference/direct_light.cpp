@@ -119,15 +119,15 @@ float visibility(const Vertex& vertex, const glm::vec3& direction, float distanc
   return transparency(vertex, ray, end, rays);
 }
 
-glm::vec3 shadowedLocalRadiance(const Vertex& vertex, Sampler& sampler, std::int64_t& rays) {
+glm::vec3 shadowedLocalRadiance(const Vertex& vertex, Sampler* sampler, std::int64_t& rays) {
   const Snapshot& snapshot = vertex.scene.snapshot;
   const shading::Surface& s = vertex.surface;
   glm::vec3 irradiance(0.0f);
   if (s.kind != shading::kSurfaceUnlit) {
     for (const shading::Light& light : snapshot.lights) irradiance += shadowedIrradiance(vertex, light, rays);
     if (!snapshot.areaLights.empty() && shading::diffuseAlbedo(s) != glm::vec3(0.0f))
-      if (const auto chosen = chooseAreaLight(vertex, sampler.next()))
-        irradiance += sampledIrradiance(vertex, *chosen, sampler.next2(), rays);
+      if (const auto chosen = chooseAreaLight(vertex, sampler->next()))
+        irradiance += sampledIrradiance(vertex, *chosen, sampler->next2(), rays);
   }
   return shading::localRadiance(s, irradiance, shading::ambientRadiance(snapshot.environment().ambient, s.normal),
                                 coatAlbedo(s, vertex.toViewer));

@@ -39,8 +39,9 @@ float misWeight(float pdf, float otherPdf);
 float visibility(const Vertex& vertex, const glm::vec3& direction, float distance, std::int64_t& rays);
 
 // Like localRadiance() of the snapshot, but lights are shadowed: punctual lights by a ray each, area lights by one
-// point of one of them, chosen by its unoccluded irradiance. Emission included, ambient light unoccluded.
-glm::vec3 shadowedLocalRadiance(const Vertex& vertex, Sampler& sampler, std::int64_t& rays);
+// point of one of them, chosen by its unoccluded irradiance. Emission included, ambient light unoccluded. Without area
+// lights there may be no sampler.
+glm::vec3 shadowedLocalRadiance(const Vertex& vertex, Sampler* sampler, std::int64_t& rays);
 
 // Of all punctual lights, with a shadow ray each if there are `shadows`.
 DirectLight punctualLight(const Vertex& vertex, const Bsdf& bsdf, bool shadows, std::int64_t& rays);

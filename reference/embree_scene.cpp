@@ -74,13 +74,17 @@ bool comesFromOutside(const Facing& facing, const glm::vec3& direction, const gl
 
 #if RTC_VERSION_MAJOR >= 4
 using QueryContext = RTCRayQueryContext;
+constexpr RTCSceneFlags kFilterOfQuery = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 #else
 using QueryContext = RTCIntersectContext;
+constexpr RTCSceneFlags kFilterOfQuery = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
 
 struct Query : QueryContext {
   const HiddenInstances* hidden;
   bool metTransparent = false;
+
+  bool hides(unsigned instance) const { return !hidden->empty() && (*hidden)[instance] != 0; }
 };
 
 // Decides about each candidate by itself, so that the order in which Embree finds them doesn't matter.
@@ -93,7 +97,7 @@ void rejectUnseen(const RTCFilterFunctionNArguments* args) {
                             RTCRayN_dir_z(args->ray, 1, 0));
   const glm::vec3 normal(RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0), RTCHitN_Ng_z(args->hit, 1, 0));
   const bool seen = facing.backFacesSeen || comesFromOutside(facing, direction, normal);
-  if ((*query.hidden)[instance] != 0 || !seen) args->valid[0] = 0;
+  if (query.hides(instance) || !seen) args->valid[0] = 0;
 }
 
 // As rejectUnseen(), and goes on behind surfaces that may be transparent.
@@ -104,29 +108,36 @@ void rejectTransparent(const RTCFilterFunctionNArguments* args) {
   args->valid[0] = 0;
 }
 
-void intersectNearest(RTCScene scene, Query& query, RTCRayHit& rayHit) {
+// A null filter lets every candidate through.
+void intersectNearest(RTCScene scene, Query& query, RTCFilterFunctionN filter, RTCRayHit& rayHit) {
 #if RTC_VERSION_MAJOR >= 4
   rtcInitRayQueryContext(&query);
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &query;
+  arguments.filter = filter;
+  arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
   rtcIntersect1(scene, &rayHit, &arguments);
 #else
   rtcInitIntersectContext(&query);
+  query.filter = filter;
   rtcIntersect1(scene, &query, &rayHit);
 #endif
 }
 
 // Embree writes -infinity to tfar if something is hit.
-void findOccluder(RTCScene scene, Query& query, RTCRay& ray) {
+void findOccluder(RTCScene scene, Query& query, RTCFilterFunctionN filter, RTCRay& ray) {
 #if RTC_VERSION_MAJOR >= 4
   rtcInitRayQueryContext(&query);
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &query;
+  arguments.filter = filter;
+  arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
   rtcOccluded1(scene, &ray, &arguments);
 #else
   rtcInitIntersectContext(&query);
+  query.filter = filter;
   rtcOccluded1(scene, &query, &ray);
 #endif
 }
@@ -171,7 +182,7 @@ struct EmbreeScene::Impl {
       : snapshot(snapshot_), device(makeDevice()), scene(rtcNewScene(device.get())) {
     // Robust: rays must not slip through the edges that triangles share, where the raster leaves no holes either. At
     // exactly a vertex one in a hundred still does.
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilterOfQuery));
     facings.reserve(snapshot.instances.size());  // Embree keeps pointers to the entries
     for (std::size_t i = 0; i < snapshot.instances.size(); ++i) attach(static_cast<unsigned>(i));
     // Embree's builder splits its work by the number of threads, and with it the tree: one thread keeps the order of
@@ -198,11 +209,15 @@ struct EmbreeScene::Impl {
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                                3 * sizeof(std::uint32_t), mesh.triangleCount());
     rtcSetGeometryUserData(geometry.get(), &facings.back());
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), rejectUnseen);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), rejectTransparent);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(scene.get(), geometry.get(), index);
     throwOnError(device.get(), "attaching a mesh");
+  }
+
+  // By the direction that it is seen from.
+  bool isSeen(const Ray& ray, const RTCHit& hit) const {
+    const Facing& facing = facings[hit.geomID];
+    return facing.backFacesSeen || comesFromOutside(facing, ray.direction, {hit.Ng_x, hit.Ng_y, hit.Ng_z});
   }
 
   const Snapshot& snapshot;
@@ -215,13 +230,23 @@ struct EmbreeScene::Impl {
 EmbreeScene::EmbreeScene(const Snapshot& snapshot) : impl_(std::make_unique<Impl>(snapshot)) {}
 EmbreeScene::~EmbreeScene() = default;
 
+// Nearly always the nearest triangle of all is seen, and is then the nearest of those that are: asking about each
+// candidate in the traversal costs more than asking about the one found, and seldom anew.
 std::optional<Hit> EmbreeScene::intersect(const Ray& ray, const HiddenInstances& hidden) const {
-  assert(hidden.size() == impl_->facings.size());
+  assert(hidden.empty() || hidden.size() == impl_->facings.size());
   Query query;
   query.hidden = &hidden;
-  RTCRayHit r = makeRayHit(ray);
-  intersectNearest(impl_->scene.get(), query, r);
+  const auto nearest = [&](RTCFilterFunctionN filter) {
+    RTCRayHit found = makeRayHit(ray);
+    intersectNearest(impl_->scene.get(), query, filter, found);
+    return found;
+  };
+  RTCRayHit r = nearest(hidden.empty() ? nullptr : rejectUnseen);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  if (hidden.empty() && !impl_->isSeen(ray, r.hit)) {
+    r = nearest(rejectUnseen);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  }
 
   const glm::vec3 normal = shading::safeNormalize({r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z});
   return Hit{.instance = static_cast<int>(r.hit.geomID),
@@ -233,11 +258,11 @@ std::optional<Hit> EmbreeScene::intersect(const Ray& ray, const HiddenInstances&
 }
 
 Occlusion EmbreeScene::occlusion(const Ray& ray, float tFar, const HiddenInstances& hidden) const {
-  assert(hidden.size() == impl_->facings.size());
+  assert(hidden.empty() || hidden.size() == impl_->facings.size());
   Query query;
   query.hidden = &hidden;
   RTCRay r = makeRay(ray, tFar);
-  findOccluder(impl_->scene.get(), query, r);
+  findOccluder(impl_->scene.get(), query, rejectTransparent, r);
   if (r.tfar < 0.0f) return Occlusion::full;
   return query.metTransparent ? Occlusion::transparent : Occlusion::none;
 }

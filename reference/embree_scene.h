@@ -30,7 +30,7 @@ struct Hit {
   bool entering;              // the ray comes from the side that the mesh calls outside
 };
 
-// One flag an instance, non-zero: no ray meets it.
+// One flag an instance, non-zero: no ray meets it. Empty: none is hidden, which is the quickest to trace.
 using HiddenInstances = std::vector<unsigned char>;
 
 // What stands in a ray's way.

@@ -55,21 +55,6 @@ void PixelBatches::addPoint(const glm::vec3& radiance) {
   ++points_;
 }
 
-void PixelBatches::addPoint(int samples, const std::function<glm::vec3(int, int)>& sampleOf) {
-  const int batchesOfHalf = batchCount_ / 2;
-  std::array<glm::dvec3, kMaxBatches> sums{};
-  std::array<int, kMaxBatches> counts{};
-  for (int half = 0; half < 2; ++half)
-    for (int i = 0; i < samples / 2; ++i) {
-      const auto batch = static_cast<std::size_t>(2 * ((i + i / batchesOfHalf + points_) % batchesOfHalf) + half);
-      sums[batch] += glm::dvec3(sampleOf(half, i));
-      ++counts[batch];
-    }
-  for (std::size_t b = 0; b < static_cast<std::size_t>(batchCount_); ++b)
-    sums_[b] += sums[b] / static_cast<double>(counts[b]);
-  ++points_;
-}
-
 glm::vec3 PixelBatches::batch(int index) const {
   return glm::vec3(sums_[static_cast<std::size_t>(index)] / static_cast<double>(points_));
 }

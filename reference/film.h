@@ -31,7 +31,8 @@ class PixelBatches {
   // The next primary point, of which every sample is `radiance`.
   void addPoint(const glm::vec3& radiance);
   // The next primary point: sampleOf(half, i) is sample i of that half, i < samples / 2.
-  void addPoint(int samples, const std::function<glm::vec3(int, int)>& sampleOf);
+  template <class SampleOf>
+  void addPoint(int samples, const SampleOf& sampleOf);
 
   // Mean over the points.
   glm::vec3 batch(int index) const;
@@ -41,5 +42,26 @@ class PixelBatches {
   int points_ = 0;
   std::array<glm::dvec3, kMaxBatches> sums_{};
 };
+
+// Sample i goes to batch (i + i / n + points) mod n of the half's n.
+template <class SampleOf>
+void PixelBatches::addPoint(int samples, const SampleOf& sampleOf) {
+  const int batchesOfHalf = batchCount_ / 2;
+  std::array<glm::dvec3, kMaxBatches> sums{};
+  std::array<int, kMaxBatches> counts{};
+  for (int half = 0; half < 2; ++half)
+    for (int i = 0, turn = points_ % batchesOfHalf, left = batchesOfHalf; i < samples / 2; ++i) {
+      const auto batch = static_cast<std::size_t>(2 * turn + half);
+      sums[batch] += glm::dvec3(sampleOf(half, i));
+      ++counts[batch];
+      turn = turn + 1 == batchesOfHalf ? 0 : turn + 1;
+      if (--left > 0) continue;
+      left = batchesOfHalf;
+      turn = turn + 1 == batchesOfHalf ? 0 : turn + 1;
+    }
+  for (std::size_t b = 0; b < static_cast<std::size_t>(batchCount_); ++b)
+    sums_[b] += sums[b] / static_cast<double>(counts[b]);
+  ++points_;
+}
 
 }  // namespace pb

@@ -1,19 +1,11 @@
 // Radiance along one ray: paths of reflections, refractions and, for global illumination, diffuse bounces.
 #pragma once
 
-#include <cstdint>
-#include <glm/vec3.hpp>
+#include <optional>
 
-#include "reference/renderer.h"
-#include "reference/sampler.h"
-#include "reference/surface_hit.h"
+#include "reference/path.h"
 
 namespace pb {
-
-struct PathResult {
-  glm::vec3 radiance;
-  std::int64_t rays;  // traced, shadow rays included
-};
 
 // An unbiased estimate of the radiance that arrives at the ray's origin from its direction. conePerMetre is the width
 // of the sample's cone per metre of path (shading/texture.glsl). Nothing is clamped.
@@ -42,5 +34,52 @@ struct PathResult {
 // triangle on which a ray goes on, so that such a ray, too, knows what it is inside of.
 PathResult tracePath(const TracedScene& scene, const Ray& primary, float conePerMetre,
                      const ReferenceSettings& settings, Sampler& sampler);
+
+// The paths of one primary ray: as tracePath() for each sampler, bit for bit, but what all of them have in common,
+// which is everything up to the light and the lobes of the surface where the first number is drawn, is traced once, and
+// its rays are counted with the first path.
+template <class RayLog>
+class BasicPathsOfRay {
+ public:
+  BasicPathsOfRay(const TracedScene& scene, const Ray& primary, float conePerMetre, const ReferenceSettings& settings,
+                  RayLog log = {})
+      : common_(scene, primary, conePerMetre, settings, log) {}
+
+  PathResult trace(Sampler& sampler) {
+    if (!traced_) return traceFirst(sampler);
+    if (!branches_) return common_.result();
+    BasicPath<RayLog> path = common_;
+    if (path.depart(arrival_, sampler)) toTheEnd(path, sampler);
+    return path.result();
+  }
+
+ private:
+  PathResult traceFirst(Sampler& sampler) {
+    traced_ = true;
+    BasicPath<RayLog> path = common_;
+    while (!branches_ && path.arrive(arrival_)) {
+      common_ = path;
+      const bool goesOn = path.depart(arrival_, sampler);
+      branches_ = sampler.used();
+      if (!goesOn) break;
+      if (branches_) toTheEnd(path, sampler);
+    }
+    if (!branches_) common_ = path;
+    common_.forgetRays();
+    return path.result();
+  }
+
+  static void toTheEnd(BasicPath<RayLog>& path, Sampler& sampler) {
+    Arrival arrival;
+    while (path.arrive(arrival) && path.depart(arrival, sampler)) {
+    }
+  }
+
+  BasicPath<RayLog> common_;  // as it came to arrival_; the whole path if it doesn't branch
+  Arrival arrival_;
+  bool traced_ = false;
+  bool branches_ = false;  // numbers are drawn from arrival_ on
+};
+using PathsOfRay = BasicPathsOfRay<NoRayLog>;
 
 }  // namespace pb

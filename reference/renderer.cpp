@@ -1,6 +1,7 @@
 #include "reference/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <mutex>
@@ -35,6 +36,7 @@ void checkDepth(const ReferenceSettings& settings) {
 }
 
 HiddenInstances hiddenFlags(const Snapshot& snapshot, const std::vector<int>& hidden) {
+  if (hidden.empty()) return {};
   HiddenInstances flags(snapshot.instances.size(), 0);
   for (const int instance : hidden) {
     if (instance < 0 || static_cast<std::size_t>(instance) >= flags.size())
@@ -88,34 +90,38 @@ class PrimaryRays {
 };
 
 // One picture: the scene as this call sees it, the settings, and where the rays start.
+template <class RayLog>
 struct Rendering {
   TracedScene scene;
   const ReferenceSettings& settings;
   PrimaryRays primaries;
   const SampleMap* samples;  // null: settings.spp everywhere
+  [[no_unique_address]] RayLog log{};
 
-  PathResult sample(const Ray& ray, Sampler& sampler) const {
-    return tracePath(scene, ray, primaries.conePerMetre(), settings, sampler);
+  // The sequences of a pixel's halves.
+  using Halves = std::array<SobolScrambles, 2>;
+  Halves halvesOf(int x, int y) const {
+    const std::uint32_t pixel = primaries.pixelIndex(x, y, settings.samplesPerAxis);
+    return {SobolScrambles(settings.seed, pixel, 0), SobolScrambles(settings.seed, pixel, 1)};
   }
 
-  // Of sample `i` of a half at primary point (column, row). Each half of a pixel is one sequence: a point takes
+  // All samples of one primary point; returns the number of rays. Each half of a pixel is one sequence: a point takes
   // consecutive members, and the points follow each other in Morton's order, so that squares of points, too, are
   // stratified.
-  Sampler sampler(int column, int row, int spp, int half, int i) const {
-    const std::uint32_t point = primaries.index(column, row);
-    const auto h = static_cast<std::uint32_t>(half), sample = static_cast<std::uint32_t>(i);
-    if (settings.sampling == Sampling::independent) return {settings.seed, point, std::uint64_t{2} * sample + h};
+  std::int64_t addPoint(int column, int row, int spp, Halves& halves, PixelBatches& pixel) const {
     const int n = settings.samplesPerAxis;
-    const std::uint32_t samplesOfPoint = std::bit_ceil(static_cast<std::uint32_t>(spp / 2));
-    return Sampler::sobol(settings.seed, primaries.pixelIndex(column / n, row / n, n), h,
-                          mortonCode(column % n, row % n) * samplesOfPoint + sample);
-  }
+    const std::uint32_t point = primaries.index(column, row);
+    const std::uint32_t firstMember =
+        mortonCode(column % n, row % n) * std::bit_ceil(static_cast<std::uint32_t>(spp / 2));
+    const auto sampler = [&](int half, int i) -> Sampler {
+      const auto h = static_cast<std::uint32_t>(half), sample = static_cast<std::uint32_t>(i);
+      if (settings.sampling == Sampling::independent) return {settings.seed, point, std::uint64_t{2} * sample + h};
+      return {halves[h], firstMember + sample};
+    };
 
-  // All samples of one primary point; returns the number of rays.
-  std::int64_t addPoint(int column, int row, int spp, PixelBatches& pixel) const {
-    const Ray ray = primaries.ray(column, row);
-    Sampler firstSampler = sampler(column, row, spp, 0, 0);
-    const PathResult first = sample(ray, firstSampler);
+    BasicPathsOfRay<RayLog> paths(scene, primaries.ray(column, row), primaries.conePerMetre(), settings, log);
+    Sampler firstSampler = sampler(0, 0);
+    const PathResult first = paths.trace(firstSampler);
     std::int64_t rays = first.rays;
     if (!firstSampler.used()) {
       pixel.addPoint(first.radiance);
@@ -123,8 +129,8 @@ struct Rendering {
     }
     pixel.addPoint(spp, [&](int half, int i) {
       if (half == 0 && i == 0) return first.radiance;
-      Sampler next = sampler(column, row, spp, half, i);
-      const PathResult path = sample(ray, next);
+      Sampler next = sampler(half, i);
+      const PathResult path = paths.trace(next);
       rays += path.rays;
       return path.radiance;
     });
@@ -135,9 +141,10 @@ struct Rendering {
     const int n = settings.samplesPerAxis;
     const int spp = samples != nullptr ? (*samples)(x, y) : settings.spp;
     PixelBatches pixel(static_cast<int>(batches.size()));
+    Halves halves = halvesOf(x, y);
     std::int64_t rays = 0;
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) rays += addPoint(x * n + i, y * n + j, spp, pixel);
+      for (int i = 0; i < n; ++i) rays += addPoint(x * n + i, y * n + j, spp, halves, pixel);
     for (std::size_t b = 0; b < batches.size(); ++b) batches[b](x, y) = pixel.batch(static_cast<int>(b));
     return rays;
   }
@@ -180,7 +187,8 @@ ReferenceImage ReferenceScene::render(const shading::View& view, int widthPx, in
   checkDepth(settings);
   assert(samples == nullptr || (samples->width() == widthPx && samples->height() == heightPx));
   const int n = settings.samplesPerAxis;
-  const Rendering rendering{impl_->litFor(settings), settings, PrimaryRays(view, widthPx * n, heightPx * n), samples};
+  const Rendering<NoRayLog> rendering{impl_->litFor(settings), settings, PrimaryRays(view, widthPx * n, heightPx * n),
+                                      samples};
   ReferenceImage image;
   image.batches.assign(static_cast<std::size_t>(std::min(settings.spp, kMaxBatches)), Image(widthPx, heightPx));
   std::atomic<std::int64_t> rays = 0;  // of whole numbers: the order of adding doesn't matter

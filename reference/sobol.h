@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
 namespace pb {
@@ -63,11 +62,32 @@ inline constexpr std::array<SobolColumns, kSobolDimensions> kSobolColumns = allS
 
 }  // namespace detail
 
+namespace detail {
+
+// What each value of each half byte of the index adds: eight look-ups in place of up to 32.
+using SobolNibbles = std::array<std::array<std::uint32_t, 16>, 8>;
+
+constexpr SobolNibbles sobolNibbles(const SobolColumns& columns) {
+  SobolNibbles nibbles{};
+  for (std::size_t place = 0; place < nibbles.size(); ++place)
+    for (std::size_t value = 0; value < 16; ++value)
+      for (std::size_t bit = 0; bit < 4; ++bit)
+        if ((value >> bit & 1u) != 0) nibbles[place][value] ^= columns[4 * place + bit];
+  return nibbles;
+}
+
+// Of the dimensions after the first, whose columns are the identity.
+inline constexpr std::array<SobolNibbles, kSobolDimensions - 1> kSobolNibbles = {
+    sobolNibbles(kSobolColumns[1]), sobolNibbles(kSobolColumns[2]), sobolNibbles(kSobolColumns[3])};
+
+}  // namespace detail
+
 // Coordinate `dimension` of point `index`, its first binary digit in bit 0.
-inline std::uint32_t reversedSobol(std::uint32_t index, int dimension) {
-  const detail::SobolColumns& columns = detail::kSobolColumns[static_cast<std::size_t>(dimension)];
+constexpr std::uint32_t reversedSobol(std::uint32_t index, int dimension) {
+  if (dimension == 0) return index;
+  const detail::SobolNibbles& nibbles = detail::kSobolNibbles[static_cast<std::size_t>(dimension - 1)];
   std::uint32_t x = 0;
-  for (; index != 0; index &= index - 1) x ^= columns[static_cast<std::size_t>(std::countr_zero(index))];
+  for (std::size_t place = 0; place < nibbles.size(); ++place) x ^= nibbles[place][index >> (4 * place) & 15u];
   return x;
 }
 

@@ -22,7 +22,9 @@ struct TracedScene {
   std::optional<Hit> intersect(const Ray& ray) const { return embree.intersect(ray, hidden); }
   std::optional<Hit> intersectPrimary(const Ray& ray) const { return embree.intersect(ray, hiddenFromPrimary); }
   Occlusion occlusion(const Ray& ray, float tFar) const { return embree.occlusion(ray, tFar, hidden); }
-  bool isHidden(int instance) const { return instance >= 0 && hidden[static_cast<std::size_t>(instance)] != 0; }
+  bool isHidden(int instance) const {
+    return instance >= 0 && !hidden.empty() && hidden[static_cast<std::size_t>(instance)] != 0;
+  }
   const SnapshotInstance& instanceOf(const Hit& hit) const {
     return snapshot.instances[static_cast<std::size_t>(hit.instance)];
   }

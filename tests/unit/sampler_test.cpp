@@ -46,20 +46,28 @@ TEST(IndependentSampler, NeighboursAreNotCorrelated) {
             kLimit);
 }
 
+// Number `before` + 1 of point `index`.
+float sobolNumber(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sequence, std::uint32_t index,
+                  int before = 0) {
+  SobolScrambles scrambles(seed, pixel, sequence);
+  Sampler sampler(scrambles, index);
+  for (int d = 0; d < before; ++d) sampler.next();
+  return sampler.next();
+}
+
 // Every point by itself is uniform over the scrambles: over seeds, pixels, halves and dimensions.
 TEST(SobolSampler, AnyPointIsUniformOverSeedsPixelsAndDimensions) {
-  EXPECT_LT(std::abs(uniformityScore([](std::uint32_t i) { return Sampler::sobol(i, 7, 0, 5).next(); })), kLimit);
-  EXPECT_LT(std::abs(uniformityScore([](std::uint32_t i) { return Sampler::sobol(1, i, 1, 5).next(); })), kLimit);
-  Sampler dimensions = Sampler::sobol(1, 2, 0, 3);
+  EXPECT_LT(std::abs(uniformityScore([](std::uint32_t i) { return sobolNumber(i, 7, 0, 5); })), kLimit);
+  EXPECT_LT(std::abs(uniformityScore([](std::uint32_t i) { return sobolNumber(1, i, 1, 5); })), kLimit);
+  SobolScrambles scrambles(1, 2, 0);
+  Sampler dimensions(scrambles, 3);
   EXPECT_LT(std::abs(uniformityScore([&](std::uint32_t) { return dimensions.next(); })), kLimit);
 }
 
 // The same point of neighbouring pixels, of both halves, and of dimensions of different groups.
 TEST(SobolSampler, ScramblesAreIndependent) {
   const auto number = [](std::uint32_t pixel, std::uint32_t half, int dimension) {
-    Sampler sampler = Sampler::sobol(1, pixel, half, 3);
-    for (int d = 0; d < dimension; ++d) sampler.next();
-    return sampler.next();
+    return sobolNumber(1, pixel, half, 3, dimension);
   };
   EXPECT_LT(std::abs(uniformityScore([&](std::uint32_t i) { return fraction(number(i, 0, 0) + number(i + 1, 0, 0)); })),
             kLimit);
@@ -75,12 +83,13 @@ TEST(SobolSampler, ScramblesAreIndependent) {
 // which scrambling keeps. 2^m consecutive points from any multiple of 2^m on, in every group of dimensions.
 TEST(SobolSampler, PairsAreStratifiedInEveryElementaryInterval) {
   constexpr unsigned m = 6;
+  SobolScrambles scrambles(3, 11, 1);
   for (const std::uint32_t begin : {0u, 64u, 1024u, 999936u})
     for (const int group : {0, 1, 5})
       for (unsigned columns = 0; columns <= m; ++columns) {
         std::set<std::pair<int, int>> cells;
         for (std::uint32_t i = 0; i < 1u << m; ++i) {
-          Sampler sampler = Sampler::sobol(3, 11, 1, begin + i);
+          Sampler sampler(scrambles, begin + i);
           for (int d = 0; d < 4 * group; ++d) sampler.next();
           const glm::vec2 p = sampler.next2();
           cells.emplace(static_cast<int>(p.x * static_cast<float>(1u << columns)),
@@ -91,10 +100,11 @@ TEST(SobolSampler, PairsAreStratifiedInEveryElementaryInterval) {
 }
 
 TEST(SobolSampler, PairsAreNeverSplitBetweenGroups) {
+  SobolScrambles scrambles(3, 11, 1);
   for (const int before : {3, 7}) {
     std::set<std::pair<int, int>> cells;
     for (std::uint32_t i = 0; i < 64; ++i) {
-      Sampler sampler = Sampler::sobol(3, 11, 1, i);
+      Sampler sampler(scrambles, i);
       for (int d = 0; d < before; ++d) sampler.next();
       const glm::vec2 p = sampler.next2();
       cells.emplace(static_cast<int>(8.0f * p.x), static_cast<int>(8.0f * p.y));
@@ -103,8 +113,19 @@ TEST(SobolSampler, PairsAreNeverSplitBetweenGroups) {
   }
 }
 
+// Scrambles are kept for the first numbers of a sequence and hashed anew for the rest: the points that come first must
+// not decide.
+TEST(SobolSampler, NumbersDontDependOnWhatWasDrawnBefore) {
+  SobolScrambles scrambles(3, 11, 1);
+  for (const int drawn : {2, 7, 40, 5, 70}) {
+    Sampler sampler(scrambles, 9);
+    for (int d = 0; d < drawn; ++d) EXPECT_EQ(sampler.next(), sobolNumber(3, 11, 1, 9, d)) << drawn << " " << d;
+  }
+}
+
 TEST(SobolSampler, TellsWhetherItWasUsed) {
-  Sampler sampler = Sampler::sobol(1, 2, 3, 4);
+  SobolScrambles scrambles(1, 2, 3);
+  Sampler sampler(scrambles, 4);
   EXPECT_FALSE(sampler.used());
   sampler.next();
   EXPECT_TRUE(sampler.used());
