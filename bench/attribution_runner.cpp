@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <map>
 
+#include "bench/attribution_renders.h"
+#include "bench/attribution_scores.h"
 #include "bench/attribution_steps.h"
 #include "bench/axes.h"
 #include "bench/bounce_depth.h"
 #include "bench/interrupt.h"
+#include "bench/kept_pictures.h"
 #include "bench/oracle.h"
-#include "bench/traced_maps.h"
 #include "bench/truth.h"
-#include "raster/lookup.h"
+#include "raster/fault.h"
+#include "raster/shared_sequence.h"
 #include "scenes/error.h"
-#include "scenes/image_io.h"
 
 namespace pb {
 namespace {
@@ -22,17 +24,171 @@ struct Job {
   const CellResult* cell;
 };
 
-MetricValues definedValues(const Metrics& metrics) {
-  MetricValues values;
-  for (const MetricInfo& metric : metricTable())
-    if (const std::optional<double> value = metric.value(metrics)) values.emplace_back(metric.key, *value);
-  return values;
+Attribution attributionOf(const Job& job, const AttributedCell& cell) {
+  return {job.cell->scene, job.cell->camera, job.cell->frame, job.cell->technique, cell.truncated.value_or(0), {}, {}};
 }
 
-AttributionStep stepOf(const std::string& step, const RegionErrors& errors) {
-  return {
-      step, {{"mse", errors.mse}, {"relmse", errors.relmse}, {"bias", errors.bias}, {"flip_hdr", errors.flipHdr}}, {}};
-}
+// The jobs of one frame of a scene. Each attribution goes to `finish` as soon as all its images are scored.
+class FrameAttributor {
+ public:
+  using Finish = std::function<void(Attribution)>;
+
+  FrameAttributor(const RunContext& context, std::vector<Job> jobs, Finish finish)
+      : c_(context),
+        jobs_(std::move(jobs)),
+        finish_(std::move(finish)),
+        scene_(jobs_.front().sequence->scene),
+        snapshot_(makeSnapshot(c_, scene_, jobs_.front().cell->frame)),
+        cells_(attributedCells()),
+        scores_(makeTruth()),
+        chains_(jobs_.size()) {}
+
+  void run() {
+    scoreTruncated();
+    scoreStale();
+    const AttributionRenders renders =
+        attributionRenders(cells_, snapshot_, settings().resolution, image().heightPx, !isFaultPlanted(c_.device));
+    for (const TracedSet& set : renders.traced) scoreTraced(set);
+    for (const FreshSet& set : renders.fresh) scoreFresh(set);
+  }
+
+ private:
+  using Scored = AttributionScores::Scored;
+
+  const AttributionSettings& settings() const { return *c_.suite.attribution; }
+  const ImageSettings& image() const { return c_.suite.image; }
+
+  std::vector<AttributedCell> attributedCells() const {
+    std::vector<AttributedCell> cells;
+    const std::vector<int> depths = depthsOfJobs();
+    for (std::size_t i = 0; i < jobs_.size(); ++i)
+      cells.push_back({jobs_[i].sequence->technique, depths[i], truncatedDepth(c_.suite.reference, depths[i])});
+    return cells;
+  }
+
+  // The bounces of the techniques at that frame: the number of hits after which their truths show the environment.
+  std::vector<int> depthsOfJobs() const {
+    std::vector<int> depths;
+    for (const Job& job : jobs_)
+      if (job.cell->matched) depths.push_back(job.cell->matched->depth);
+    if (depths.size() == jobs_.size()) return depths;
+    std::vector<Technique> techniques;
+    for (const Job& job : jobs_) techniques.push_back(job.sequence->technique);
+    depths.clear();
+    for (const std::vector<int>& ofFrames : bounceDepths(
+             techniques, c_.suite.scenes[scene_].startFrame(), jobs_.front().cell->frame,
+             [&](int frame) { return makeSnapshot(c_, scene_, frame); }, image().heightPx))
+      depths.push_back(ofFrames.back());
+    return depths;
+  }
+
+  std::shared_ptr<const Truth> makeTruth() const {
+    Technique noProbes;
+    noProbes.probes = ProbeUse::environmentOnly;
+    RasterSequence idRaster(c_.device, noProbes, image().widthPx, image().heightPx, image().samplesPerAxis);
+    const TruthMaker maker(c_.store, image(), c_.suite.reference,
+                           [&](const Snapshot& s) { return idRaster.renderIds(s); });
+    std::vector<std::string> warnings;
+    auto truth = maker.make(snapshot_, c_.suite.scenes[scene_].exposure, warnings);
+    say(warnings);
+    return truth;
+  }
+
+  void say(const std::vector<std::string>& warnings) const {
+    for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
+  }
+
+  void add(const ImageUse& use, const Scored& scored) {
+    std::map<std::string, const Scored*>& chain = chains_[use.cell];
+    chain[use.step] = &scored;
+    if (chain.size() < chainLength(use.cell)) return;
+    Attribution attribution = attributionOf(jobs_[use.cell], cells_[use.cell]);
+    for (const AttributionStepInfo& step : attributionSteps())
+      if (const auto found = chain.find(step.name); found != chain.end())
+        addStep(step.name, *found->second, attribution);
+    finish_(std::move(attribution));
+  }
+
+  // Images that are rasterised, and: local diffuse, truncated, stale.
+  std::size_t chainLength(std::size_t cell) const {
+    const std::size_t others = c_.suite.reference.diffuse == DiffuseTransport::traced ? 3 : 2;
+    return rasterSteps(cells_[cell].technique, settings().resolution).size() + others;
+  }
+
+  void addAll(const std::vector<ImageUse>& uses, const Image& image) {
+    const Scored& scored = scores_.score(image);
+    for (const ImageUse& use : uses) add(use, scored);
+  }
+
+  void scoreTruncated() {
+    std::map<std::optional<int>, std::vector<ImageUse>> uses;  // by depth
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      if (c_.suite.reference.diffuse == DiffuseTransport::traced)
+        uses[c_.suite.reference.depth].push_back({cell, "local diffuse"});
+      uses[cells_[cell].truncated].push_back({cell, "truncated bounces"});
+    }
+    for (const auto& [depth, ofDepth] : uses) addAll(ofDepth, localTruth(depth));
+  }
+
+  // Of light as the raster has it: diffuse surfaces show that of their own point.
+  Image localTruth(std::optional<int> depth) const {
+    throwIfInterrupted();
+    TruthSettings settings = c_.suite.reference;
+    if (depth == settings.depth && settings.diffuse == DiffuseTransport::local) return scores_.truth().mean;
+    settings.depth = depth;
+    settings.diffuse = DiffuseTransport::local;
+    settings.diffuseDepth = std::nullopt;
+    std::vector<std::string> warnings;
+    Image mean = TruthMaker(c_.store, image(), settings, {}).reference(snapshot_, warnings).mean();
+    say(warnings);
+    return mean;
+  }
+
+  // The cells' own images, which the run has rendered.
+  void scoreStale() {
+    const PictureNames names(c_.suite, c_.scenes);
+    for (std::size_t cell = 0; cell < jobs_.size(); ++cell) {
+      throwIfInterrupted();
+      const Job& job = jobs_[cell];
+      const std::string name = names.ofFrame(*job.sequence, job.cell->frame);
+      addAll({{cell, "stale"}}, readPictureOf(c_.directory, *job.cell, name));
+    }
+  }
+
+  void scoreTraced(const TracedSet& set) {
+    throwIfInterrupted();
+    ReferenceSettings tracing;
+    tracing.spp = texelSpp(settings(), c_.suite.reference.spp);
+    tracing.depth = set.depth;
+    const OracleMaps maps = traceMaps(set.views, tracing, set.withDistances);
+    for (const TracedImage& traced : set.images) {
+      throwIfInterrupted();
+      addAll(traced.uses, renderWithMaps(c_.device, traced.technique, *snapshot_, image(), maps));
+    }
+  }
+
+  void scoreFresh(const FreshSet& set) {
+    SharedSequence raster(c_.device, set.techniques, image().widthPx, image().heightPx, image().samplesPerAxis);
+    for (int render = 1; render <= set.renders(); ++render) {
+      throwIfInterrupted();
+      raster.capture(snapshot_);
+      for (const FreshImage& fresh : set.images) {
+        if (fresh.renders != render) continue;
+        raster.show(fresh.technique);
+        addAll(fresh.uses, raster.readImage());
+      }
+    }
+  }
+
+  const RunContext& c_;
+  const std::vector<Job> jobs_;
+  const Finish finish_;
+  const std::size_t scene_;
+  const std::shared_ptr<const Snapshot> snapshot_;
+  const std::vector<AttributedCell> cells_;
+  AttributionScores scores_;
+  std::vector<std::map<std::string, const Scored*>> chains_;  // by job: steps that are scored
+};
 
 class Attributor {
  public:
@@ -42,10 +198,9 @@ class Attributor {
     for (const Attribution& done : c_.directory.finishedAttributions()) finished_.emplace(keyOfCell(done), done);
     const std::vector<Job> jobs = chooseJobs(cells);
     c_.progress.begin("attribution", jobs.size());
-    for (const Job& job : byFrame(jobs)) {
+    for (const auto& [frame, open] : openByFrame(jobs)) {
       throwIfInterrupted();
-      attributeCell(job);
-      c_.progress.step();
+      FrameAttributor(c_, open, [this](Attribution attribution) { finish(std::move(attribution)); }).run();
     }
     c_.progress.end();
     std::vector<Attribution> attributions;
@@ -54,15 +209,6 @@ class Attributor {
   }
 
  private:
-  // What the cells of one frame of a scene have in common.
-  struct Frame {
-    std::size_t scene;
-    int frame;
-    std::shared_ptr<const Snapshot> snapshot;
-    std::shared_ptr<const Truth> truth;
-    std::map<int, Image> truncated;  // by depth
-  };
-
   static std::string keyOfCell(const Attribution& attribution) {
     CellResult cell;
     cell.scene = attribution.scene;
@@ -89,155 +235,26 @@ class Attributor {
     return jobs;
   }
 
-  // Cells that share their truth stand together.
-  static std::vector<Job> byFrame(std::vector<Job> jobs) {
-    std::ranges::stable_sort(jobs, {}, [](const Job& job) { return std::pair(job.sequence->scene, job.cell->frame); });
-    return jobs;
+  // Not yet finished ones by scene and frame, which have their truth in common. The others' progress is counted.
+  std::map<std::pair<std::size_t, int>, std::vector<Job>> openByFrame(const std::vector<Job>& jobs) const {
+    std::map<std::pair<std::size_t, int>, std::vector<Job>> open;
+    for (const Job& job : jobs)
+      if (finished_.contains(job.cell->key()))
+        c_.progress.step();
+      else
+        open[{job.sequence->scene, job.cell->frame}].push_back(job);
+    return open;
   }
 
-  std::shared_ptr<const Snapshot> snapshot(std::size_t scene, int frame) const {
-    return makeSnapshot(c_.scenes[scene], std::max(frame, 0), c_.suite.scenes[scene].camera, c_.suite.image.aspect());
-  }
-
-  std::shared_ptr<const Truth> makeTruth(const Frame& frame, const TruthSettings& settings) const {
-    Technique noProbes;
-    noProbes.probes = ProbeUse::environmentOnly;
-    const ImageSettings& image = c_.suite.image;
-    RasterSequence idRaster(c_.device, noProbes, image.widthPx, image.heightPx, image.samplesPerAxis);
-    const TruthMaker maker(c_.store, image, settings, [&](const Snapshot& s) { return idRaster.renderIds(s); });
-    std::vector<std::string> warnings;
-    auto truth = maker.make(frame.snapshot, c_.suite.scenes[frame.scene].exposure, warnings);
-    for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
-    return truth;
-  }
-
-  Frame& frameOf(const Job& job) {
-    const std::size_t scene = job.sequence->scene;
-    if (!frame_ || frame_->scene != scene || frame_->frame != job.cell->frame) {
-      maps_.clear();
-      frame_ = Frame{scene, job.cell->frame, snapshot(scene, job.cell->frame), nullptr, {}};
-      frame_->truth = makeTruth(*frame_, c_.suite.reference);
-    }
-    return *frame_;
-  }
-
-  // Of light as the raster has it: diffuse surfaces show that of their own point.
-  TruthSettings localTruth(std::optional<int> depth) const {
-    TruthSettings settings = c_.suite.reference;
-    settings.depth = depth;
-    settings.diffuse = DiffuseTransport::local;
-    settings.diffuseDepth = std::nullopt;
-    return settings;
-  }
-
-  // The bounces of the technique at that frame: the number of hits after which its truth shows the environment.
-  int depthOf(const Job& job) const {
-    if (job.cell->matched) return job.cell->matched->depth;
-    const std::size_t scene = job.sequence->scene;
-    return bounceDepths(
-               {job.sequence->technique}, c_.suite.scenes[scene].startFrame(), job.cell->frame,
-               [&](int frame) { return snapshot(scene, frame); }, c_.suite.image.heightPx)
-        .front()
-        .back();
-  }
-
-  // The same as a setting of the reference; that of the truth itself where it has no more bounces.
-  std::optional<int> truncation(int depth) const {
-    const std::optional<int> ofTruth = c_.suite.reference.depth;
-    if (depth >= kMaxMatchedDepth || (ofTruth && *ofTruth <= depth)) return ofTruth;
-    return depth;
-  }
-
-  const Image& truncatedImage(Frame& frame, std::optional<int> depth) const {
-    const bool isTruth = depth == c_.suite.reference.depth && c_.suite.reference.diffuse == DiffuseTransport::local;
-    if (isTruth) return frame.truth->mean;
-    const auto [found, isNew] = frame.truncated.try_emplace(depth.value_or(0));
-    if (isNew) found->second = makeTruth(frame, localTruth(depth))->mean;
-    return found->second;
-  }
-
-  void attributeCell(const Job& job) {
-    if (finished_.contains(job.cell->key())) return;
-    Frame& frame = frameOf(job);
-    const int depth = depthOf(job);
-    const std::optional<int> truncated = truncation(depth);
-    Attribution attribution{
-        job.cell->scene, job.cell->camera, job.cell->frame, job.cell->technique, truncated.value_or(0), {}, {}};
-    Scores scores{frame, attribution};
-    if (c_.suite.reference.diffuse == DiffuseTransport::traced)
-      scores.add("local diffuse", truncatedImage(frame, c_.suite.reference.depth));
-    scores.add("truncated bounces", truncatedImage(frame, truncated));
-    for (const RasterStep& step : rasterSteps(job.sequence->technique, c_.suite.attribution->resolution)) {
-      throwIfInterrupted();
-      scores.add(step.step, step.isTraced ? renderTraced(step, frame, truncated) : renderFresh(step, frame, depth));
-    }
-    scores.add("stale", imageOf(job));
+  void finish(Attribution attribution) {
     c_.directory.append(attribution);
-    finished_.emplace(job.cell->key(), std::move(attribution));
+    std::string key = keyOfCell(attribution);
+    finished_.emplace(std::move(key), std::move(attribution));
+    c_.progress.step();
   }
-
-  Image renderTraced(const RasterStep& step, const Frame& frame, std::optional<int> depth) {
-    const ProbeViews views = probeViews(step.technique, frame.snapshot, c_.suite.image.heightPx);
-    ReferenceSettings settings;
-    settings.spp = texelSpp(*c_.suite.attribution, c_.suite.reference.spp);
-    settings.depth = depth;
-    const OracleMaps& maps = maps_.obtain(views, settings, needsDistances(step.technique));
-    return renderWithMaps(c_.device, step.technique, *frame.snapshot, c_.suite.image, maps);
-  }
-
-  // In a world that stands still, as often as it takes for the maps to be as deep as the technique's.
-  Image renderFresh(const RasterStep& step, const Frame& frame, int depth) const {
-    const ImageSettings& image = c_.suite.image;
-    RasterSequence sequence(c_.device, step.technique, image.widthPx, image.heightPx, image.samplesPerAxis);
-    BounceDepth followed(step.technique, image.heightPx);
-    const int enough = std::min(depth, kMaxMatchedDepth);
-    for (int before = 0, now = 0;; before = now) {
-      throwIfInterrupted();
-      now = followed.advance(*frame.snapshot);
-      sequence.renderFrame(*frame.snapshot);
-      if (now >= enough || now == before) break;  // the same every time: no other probe, or none in memory
-    }
-    return sequence.readImage();
-  }
-
-  // The cell's own image: from the run's folder if it was kept there.
-  Image imageOf(const Job& job) const {
-    const std::filesystem::path kept = c_.directory.folder() / job.cell->pictures.rendered;
-    if (!job.cell->pictures.rendered.empty() && std::filesystem::exists(kept))
-      return rgbOf(readImage(kept.string()).pixels);
-    const ImageSettings& image = c_.suite.image;
-    RasterSequence sequence(c_.device, job.sequence->technique, image.widthPx, image.heightPx, image.samplesPerAxis);
-    const std::size_t scene = job.sequence->scene;
-    for (int f = c_.suite.scenes[scene].startFrame(); f <= job.cell->frame; ++f) {
-      throwIfInterrupted();
-      sequence.renderFrame(*snapshot(scene, f));
-    }
-    return sequence.readImage();
-  }
-
-  // Scores images into an attribution.
-  struct Scores {
-    const Frame& frame;
-    Attribution& attribution;
-
-    void add(const std::string& step, const Image& image) {
-      const Truth& truth = *frame.truth;
-      const MetricsResult result = truth.metrics.compare(image, truth.mask.empty() ? nullptr : &truth.mask);
-      attribution.steps.push_back(
-          {step, definedValues(result.whole), result.masked ? definedValues(*result.masked) : MetricValues()});
-      const std::vector<ObjectError> objects =
-          computeObjectErrors(*frame.snapshot, *frame.snapshot, truth.objects, truth.mean, image, result.flipHdrMap);
-      if (attribution.objects.empty())
-        for (const ObjectError& object : objects)
-          attribution.objects.push_back({object.object, object.material, object.pixels, {}});
-      for (std::size_t i = 0; i < objects.size(); ++i) attribution.objects[i].steps.push_back(stepOf(step, objects[i]));
-    }
-  };
 
   const RunContext& c_;
   std::map<std::string, Attribution> finished_;  // by the cell's key
-  std::optional<Frame> frame_;
-  TracedMaps maps_;
 };
 
 }  // namespace

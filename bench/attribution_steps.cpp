@@ -31,10 +31,13 @@ Technique withMapsAsStored(Technique technique, const Technique& stored) {
 }
 
 // All that is captured is of this very moment. In a world that stands still each render adds one bounce iteration to
-// those before, so that any number of them can be had.
+// those before, so that any number of them can be had. Techniques that only differ in what is gone then, or in name,
+// are equal, so that they are rendered once; a single iteration repeats nothing.
 Technique withFreshCaptures(Technique technique) {
+  technique.preset = Technique().preset;
   technique.refresh = Spec{"every-frame", {}};
   technique.bounces = 1;
+  technique.iterations = Iterations::bruteForce;
   technique.feedback = Feedback::previousFrame;
   technique.hysteresis = 0.0f;
   return technique;
@@ -43,11 +46,12 @@ Technique withFreshCaptures(Technique technique) {
 }  // namespace
 
 std::vector<RasterStep> rasterSteps(const Technique& technique, int tracedResolution) {
-  const Technique traced = withGivenMaps(withBestMaps(technique));
+  const Technique fresh = withFreshCaptures(technique);
+  Technique traced = withGivenMaps(withBestMaps(fresh));
+  traced.bounceOrder = Technique().bounceOrder;  // of captures
   Technique perfect = traced;
   perfect.resolution = std::max(tracedResolution, technique.resolution);
   perfect.resolutionScale = ResolutionScale::fixed;
-  const Technique fresh = withFreshCaptures(technique);
   return {{.step = "lookup", .technique = perfect, .isTraced = true},
           {.step = "resolution", .technique = traced, .isTraced = true},
           {.step = "capture", .technique = withBestMaps(fresh)},

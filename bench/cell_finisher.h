@@ -10,14 +10,10 @@
 #include "bench/results.h"
 #include "bench/runner.h"
 #include "bench/score.h"
-#include "raster/renderer.h"
 
 namespace pb {
 
 using FinishedCells = std::map<std::string, CellResult>;  // by key
-
-// Fills in what the rasteriser counted.
-void fillIn(const FrameStats& stats, CellResult& cell);
 
 class CellFinisher {
  public:

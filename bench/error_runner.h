@@ -1,5 +1,6 @@
 // The errors of a plan's cells: references, then rasterising on the calling thread with the metrics of earlier cells
-// beside it. Sequences with equal captures are rendered together, equal pictures of a frame are scored once.
+// beside it. Sequences with equal captures are rendered together, equal pictures of a frame are scored once. What the
+// run keeps rendered (bench/kept_pictures.h) is taken from there.
 #pragma once
 
 #include "bench/cell_finisher.h"

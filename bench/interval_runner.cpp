@@ -104,7 +104,7 @@ class IntervalRunner {
     const auto groups = groupsOf(cells);
     std::size_t count = 0;
     for (const auto& [where, group] : groups) count += group.size();
-    c_.progress.begin("intervals", count);
+    c_.progress.begin(rescores_ ? "scores" : "intervals", count);
     for (const auto& [where, group] : groups) addToFrame(where.first, where.second, group);
     c_.progress.end();
   }
@@ -135,14 +135,13 @@ class IntervalRunner {
 
   void addToFrame(std::size_t scene, int frame, const Group& group) {
     throwIfInterrupted();
-    std::vector<std::string> warnings;  // were given when the cells were scored
+    std::vector<std::string> warnings;
     const TruthMaker maker = makerOf();
     const ReferenceImage reference = maker.reference(snapshot(scene, frame), warnings);
-    if (reference.batches.size() < 2 || areEqual(reference.batches)) {
-      for (CellResult* cell : group) {
-        setExact(*cell);
-        c_.progress.step();
-      }
+    const bool isExact = reference.batches.size() < 2 || areEqual(reference.batches);
+    if (rescores_) say(warnings);  // else they were given when the cells were scored
+    if (isExact && !rescores_) {
+      for (CellResult* cell : group) addExact(*cell);
       return;
     }
     const double exposure = c_.suite.scenes[scene].exposure;
@@ -150,10 +149,32 @@ class IntervalRunner {
     const auto bytes = static_cast<std::size_t>(c_.suite.image.widthPx) *
                        static_cast<std::size_t>(c_.suite.image.heightPx) * sizeof(glm::vec3);
     const std::size_t most = std::max<std::size_t>(1, kMostBytes / bytes);
-    for (std::size_t begin = 0; begin < group.size(); begin += most)
-      addToCells(reference, *truth, exposure,
-                 Group(group.begin() + static_cast<std::ptrdiff_t>(begin),
-                       group.begin() + static_cast<std::ptrdiff_t>(std::min(group.size(), begin + most))));
+    for (std::size_t begin = 0; begin < group.size(); begin += most) {
+      const Group part(group.begin() + static_cast<std::ptrdiff_t>(begin),
+                       group.begin() + static_cast<std::ptrdiff_t>(std::min(group.size(), begin + most)));
+      const std::vector<Image> pictures = picturesOf(part);
+      const std::vector<std::size_t> first = firstEqual(pictures);  // which has the scores of them all
+      if (rescores_) rescore(*truth, pictures, first, part);
+      if (isExact)
+        for (CellResult* cell : part) addExact(*cell);
+      else
+        addToCells(reference, *truth, exposure, pictures, first, part);
+    }
+  }
+
+  void say(const std::vector<std::string>& warnings) const {
+    for (const std::string& warning : warnings) c_.progress.message("warning: " + warning);
+  }
+
+  void addExact(CellResult& cell) const {
+    setExact(cell);
+    c_.progress.step();
+  }
+
+  std::vector<Image> picturesOf(const Group& group) const {
+    std::vector<Image> pictures;
+    for (const CellResult* cell : group) pictures.push_back(rgbOf(readImage(pictureOf(*cell).string()).pixels));
+    return pictures;
   }
 
   TruthMaker makerOf() {
@@ -166,13 +187,9 @@ class IntervalRunner {
   }
 
   // One reference without one of its batches at a time: prepared ones are large.
-  void addToCells(const ReferenceImage& reference, const Truth& truth, double exposure, const Group& group) {
+  void addToCells(const ReferenceImage& reference, const Truth& truth, double exposure,
+                  const std::vector<Image>& pictures, const std::vector<std::size_t>& first, const Group& group) {
     const Mask& mask = truth.mask;
-    std::vector<Image> pictures(group.size());
-    for (std::size_t i = 0; i < group.size(); ++i) pictures[i] = rgbOf(readImage(pictureOf(*group[i]).string()).pixels);
-    if (rescores_)
-      for (std::size_t i = 0; i < group.size(); ++i) rescore(truth, pictures[i], *group[i]);
-    const std::vector<std::size_t> first = firstEqual(pictures);  // which has the scores of them all
     std::vector<Replicates> whole(group.size()), masked(group.size());
     const Image mean = reference.mean();
     const MetricsSettings display{.exposure = exposure, .clampForDisplay = true};
@@ -193,12 +210,21 @@ class IntervalRunner {
     }
   }
 
-  static void rescore(const Truth& truth, const Image& picture, CellResult& cell) {
-    const MetricsResult scores = truth.metrics.compare(picture, truth.mask.empty() ? nullptr : &truth.mask);
-    cell.metrics = scores.whole;
-    cell.maskMetrics = scores.masked;
-    cell.floor = truth.floor;
-    cell.maskFloor = truth.maskFloor;
+  static void rescore(const Truth& truth, const std::vector<Image>& pictures, const std::vector<std::size_t>& first,
+                      const Group& group) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      CellResult& cell = *group[i];
+      if (first[i] == i) {
+        const MetricsResult scores = truth.metrics.compare(pictures[i], truth.mask.empty() ? nullptr : &truth.mask);
+        cell.metrics = scores.whole;
+        cell.maskMetrics = scores.masked;
+      } else {
+        cell.metrics = group[first[i]]->metrics;
+        cell.maskMetrics = group[first[i]]->maskMetrics;
+      }
+      cell.floor = truth.floor;
+      cell.maskFloor = truth.maskFloor;
+    }
   }
 
   const RunContext& c_;

@@ -37,8 +37,10 @@ OracleMaps traceMaps(const ProbeViews& views, ReferenceSettings settings, bool w
 Image renderWithMaps(RasterDevice& device, const Technique& given, const Snapshot& snapshot, const ImageSettings& image,
                      const OracleMaps& maps) {
   RasterSequence sequence(device, given, image.widthPx, image.heightPx, image.samplesPerAxis);
+  const bool withDistances = needsDistances(given);
   for (std::size_t probe = 0; probe < maps.faces.size(); ++probe)
-    sequence.setProbe(static_cast<int>(probe), maps.faces[probe], maps.distances[probe]);
+    sequence.setProbe(static_cast<int>(probe), maps.faces[probe],
+                      withDistances ? maps.distances[probe] : std::array<Plane, 6>());
   sequence.renderFrame(snapshot);
   return sequence.readImage();
 }

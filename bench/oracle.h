@@ -28,7 +28,7 @@ Technique withGivenMaps(Technique technique);
 // maps' own rays have one hit less, two less where the owner is of solid glass, in and out, but at least one.
 OracleMaps traceMaps(const ProbeViews& views, ReferenceSettings settings, bool withDistances);
 
-// The final image of a technique whose maps are given.
+// The final image of a technique whose maps are given; with distances, if its lookup reads them.
 Image renderWithMaps(RasterDevice& device, const Technique& given, const Snapshot& snapshot, const ImageSettings& image,
                      const OracleMaps& maps);
 

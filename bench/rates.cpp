@@ -17,7 +17,8 @@ using Json = nlohmann::ordered_json;
 
 // What runs do one after the other, in that order.
 constexpr const char* kDeciding = "deciding";
-constexpr const char* kKinds[] = {"control", kDeciding, "references", "errors", "intervals", "attribution", "cost"};
+constexpr const char* kIntervals = "intervals";
+constexpr const char* kKinds[] = {"control", kDeciding, "references", "errors", kIntervals, "attribution", "cost"};
 
 }  // namespace
 
@@ -77,6 +78,9 @@ std::string printWork(const PlanWork& work, const Rates& rates) {
       "cost\n",
       counted(work.references, "reference"), work.stored, counted(work.frames, "raster frame"), work.sharing,
       work.captures, counted(work.blocks, "block"));
+  if (const auto& [images, traced, captured] = work.attribution; images > 0)
+    text += fmt::format("attribution renders {} from {} traced and {} captured sets of maps\n",
+                        counted(images, "image"), traced, captured);
   std::map<std::string, double> seconds;
   std::set<std::string> unknown;
   const auto add = [&](const WorkKind& kind, double units, const std::string& name) {
@@ -85,12 +89,11 @@ std::string printWork(const PlanWork& work, const Rates& rates) {
     else
       unknown.insert(name);
   };
-  for (const auto& [kind, units] : work.units) add(kind, units, kind.first);
-  if (work.deciding) {
-    text += fmt::format("--until-decided renders {} beforehand, with {:.0f} captured faces\n",
-                        counted(work.deciding->frames, "raster frame"), work.deciding->captures);
-    for (const auto& [kind, units] : work.deciding->units) add(kind, units, kDeciding);
+  for (const auto& [kind, units] : work.units) {
+    add(kind, units, kind.first);
+    if (work.untilDecided && kind.first == kIntervals) add(kind, units, kDeciding);
   }
+  if (work.untilDecided) text += "--until-decided renders them first, and scores the last ones at least once more\n";
   std::vector<std::string> known, missing;
   double total = 0;
   for (const char* kind : kKinds) {
@@ -105,7 +108,7 @@ std::string printWork(const PlanWork& work, const Rates& rates) {
   text += fmt::format("should take about {} ({}), by the rates of earlier runs", printDuration(total),
                       fmt::join(known, ", "));
   if (!missing.empty()) text += fmt::format("; no rates measured yet for {}", fmt::join(missing, ", "));
-  if (work.deciding)
+  if (work.untilDecided)
     text += "; --until-decided may ask for more samples";
   else if (work.mayRefine && work.stored < work.references)
     text += "; max_noise may ask for more samples";

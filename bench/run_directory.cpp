@@ -23,8 +23,9 @@ constexpr const char* kAttributionJournal = "attribution.jsonl";
 // in the folder is touched.
 constexpr const char* kFiles[] = {kJournal,    kAttributionJournal, "results.json", "results.csv", "benchmark.json",
                                   "report.md", "report.csv",        "report.html",  "ranking.json"};
-constexpr const char* kImages = "images";
-constexpr const char* kFolders[] = {kImages, "report-pictures"};
+constexpr const char* kKept = "kept";
+constexpr const char* kKeptJournal = "kept/pictures.jsonl";
+constexpr const char* kFolders[] = {"images", kKept, "report-pictures"};
 
 void makeFolder(const fs::path& folder) {
   std::error_code failure;
@@ -94,16 +95,15 @@ RunDirectory::RunDirectory(fs::path folder, const RunIdentity& identity, bool re
   if (resume) readJournals();
 }
 
-void RunDirectory::removeEarlierRun() const {
+void RunDirectory::remove(const fs::path& path) const {
   std::error_code failure;
-  for (const char* file : kFiles) {
-    fs::remove(folder_ / file, failure);
-    if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / file).string(), failure.message());
-  }
-  for (const char* subfolder : kFolders) {
-    fs::remove_all(folder_ / subfolder, failure);
-    if (failure) throwEnvironmentError("'{}' can't be removed: {}", (folder_ / subfolder).string(), failure.message());
-  }
+  fs::remove_all(path, failure);
+  if (failure) throwEnvironmentError("'{}' can't be removed: {}", path.string(), failure.message());
+}
+
+void RunDirectory::removeEarlierRun() const {
+  for (const char* file : kFiles) remove(folder_ / file);
+  for (const char* subfolder : kFolders) remove(folder_ / subfolder);
 }
 
 void RunDirectory::readJournals() {
@@ -112,11 +112,19 @@ void RunDirectory::readJournals() {
   readLines((folder_ / kAttributionJournal).string(), [&](const std::string& line, const std::string& place) {
     finishedAttributions_.push_back(attributionFromJson(line, place));
   });
+  readLines((folder_ / kKeptJournal).string(),
+            [&](const std::string& line, const std::string& place) { kept_.push_back(cellFromJson(line, place)); });
 }
 
 void RunDirectory::append(const CellResult& cell) { appendLine(kJournal, toJson(cell)); }
 
 void RunDirectory::append(const Attribution& attribution) { appendLine(kAttributionJournal, toJson(attribution)); }
+
+void RunDirectory::appendKept(const CellResult& cell) {
+  appendLine(kKeptJournal, toJson(cell));
+  const std::lock_guard lock(journalMutex_);
+  kept_.push_back(cell);
+}
 
 void RunDirectory::appendLine(const char* name, const std::string& line) {
   const std::lock_guard lock(journalMutex_);
@@ -128,6 +136,7 @@ void RunDirectory::appendLine(const char* name, const std::string& line) {
 
 void RunDirectory::finish(const Results& results, const std::string& benchmarkJson) {
   const auto path = [&](const char* name) { return (folder_ / name).string(); };
+  remove(keptFolder());
   if (!benchmarkJson.empty()) writeFileAtomically(path("benchmark.json"), benchmarkJson);
   writeFileAtomically(path("results.csv"), toCsv(results, describe(Technique())));
   writeFileAtomically(path("report.md"), makeReport(results, describe(Technique())));

@@ -1,8 +1,8 @@
 // The folder of a run: what may be written there, and the journal that lets a killed run go on.
 //
 // run.json marks a folder as made by `probebench run` and says for which suite; journal.jsonl holds one finished cell a
-// line, attribution.jsonl one attribution. A folder that is not empty and has no run.json, or one of another suite, is
-// never touched.
+// line, attribution.jsonl one attribution, kept/pictures.jsonl one cell that is rendered and not scored yet. A folder
+// that is not empty and has no run.json, or one of another suite, is never touched.
 #pragma once
 
 #include <filesystem>
@@ -27,6 +27,8 @@ class RunDirectory {
 
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path imagesFolder() const { return folder_ / "images"; }
+  // Of pictures that the run still needs (bench/kept_pictures.h). It need not be there.
+  std::filesystem::path keptFolder() const { return folder_ / "kept"; }
 
   // Cells that an earlier, killed run has finished; empty without `resume`.
   const std::vector<CellResult>& finishedCells() const { return finished_; }
@@ -34,20 +36,28 @@ class RunDirectory {
   // Attributions likewise.
   const std::vector<Attribution>& finishedAttributions() const { return finishedAttributions_; }
 
+  // Cells with kept pictures, without scores: of an earlier, killed run, and those that were appended. Not while others
+  // are.
+  const std::vector<CellResult>& keptCells() const { return kept_; }
+
   // Appends a finished cell or attribution to its journal. From any thread.
   void append(const CellResult& cell);
   void append(const Attribution& attribution);
+  // The same of a cell whose picture stands in keptFolder().
+  void appendKept(const CellResult& cell);
 
-  // Writes benchmark.json (unless empty), results.csv, report.md and, last, results.json: a run with it is complete.
+  // Removes keptFolder(), writes benchmark.json (unless empty), results.csv, report.md and, last, results.json: a run
+  // with it is complete.
   void finish(const Results& results, const std::string& benchmarkJson);
 
  private:
+  void remove(const std::filesystem::path& path) const;
   void removeEarlierRun() const;
   void readJournals();
   void appendLine(const char* name, const std::string& line);
 
   std::filesystem::path folder_;
-  std::vector<CellResult> finished_;
+  std::vector<CellResult> finished_, kept_;
   std::vector<Attribution> finishedAttributions_;
   std::mutex journalMutex_;
 };

@@ -1,5 +1,6 @@
 #include "bench/runner.h"
 
+#include <algorithm>
 #include <cassert>
 #include <map>
 
@@ -92,6 +93,11 @@ Scenes loadScenes(Suite& suite) {
     if (scene.camera.empty()) scene.camera = scenes.back()->cameras.front().name;
   }
   return scenes;
+}
+
+std::shared_ptr<const Snapshot> makeSnapshot(const RunContext& context, std::size_t scene, int frame) {
+  const Suite& suite = context.suite;
+  return makeSnapshot(context.scenes[scene], std::max(frame, 0), suite.scenes[scene].camera, suite.image.aspect());
 }
 
 RunOutcome runPlan(const RunContext& context) { return Runner(context).run(); }

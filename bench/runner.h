@@ -1,5 +1,6 @@
 // Runs a plan: references and errors (bench/error_runner.h), intervals, attribution, then cost with nothing else
-// running. Results do not depend on the order in which cells finish.
+// running. Results do not depend on the order in which cells finish. Pictures that the run's folder keeps already
+// (bench/kept_pictures.h) are taken from there.
 #pragma once
 
 #include <memory>
@@ -13,6 +14,7 @@
 #include "bench/store.h"
 #include "bench/suite.h"
 #include "raster/renderer.h"
+#include "scenes/snapshot.h"
 
 namespace pb {
 
@@ -30,6 +32,10 @@ struct RunContext {
   RunDirectory& directory;
   Progress& progress;
 };
+
+// Of a scene of the suite, through its camera. Frames before 0 show frame 0: warm-up of a scene that stands still until
+// then.
+std::shared_ptr<const Snapshot> makeSnapshot(const RunContext& context, std::size_t scene, int frame);
 
 // External techniques that could not take a scene's job: "external NAME on SCENE" and why, one a pair.
 using SkippedExternals = std::vector<std::pair<std::string, std::string>>;

@@ -8,6 +8,7 @@
 
 #include "bench/counted.h"
 #include "bench/interval_runner.h"
+#include "bench/kept_pictures.h"
 #include "scenes/error.h"
 #include "scenes/files.h"
 
@@ -35,22 +36,13 @@ double largestNoise(const std::vector<CellResult>& cells) {
   return largest;
 }
 
-// Errors of the last frames only.
-Suite trialSuite(const Suite& suite) {
-  Suite trial = suite;
-  trial.cost.repetitions = 0;
-  trial.attribution.reset();
-  trial.reference.matched = false;
-  return trial;
-}
-
-Plan trialPlan(const Plan& plan) {
-  Plan trial = plan;
-  for (PlannedSequence& sequence : trial.sequences) {
-    sequence.frames = {sequence.frames.back()};
-    sequence.attributedFrames.clear();
-  }
-  return trial;
+// In the plan's order, without scores: what the pictures show of each sequence in the end. External techniques that
+// were skipped have none.
+std::vector<CellResult> lastCells(const Plan& plan, const KeptPictures& pictures) {
+  std::vector<CellResult> cells;
+  for (const PlannedSequence& sequence : plan.sequences)
+    if (const CellResult* cell = pictures.find(sequence, sequence.frames.back())) cells.push_back(*cell);
+  return cells;
 }
 
 // "1 of 66 pairs of cells is not decided at noise 6e-05".
@@ -72,12 +64,14 @@ std::string sentenceOf(const Ranking& ranking, const char* reason) {
 }  // namespace
 
 Ranking decideRanking(const RunContext& context, double budgetSeconds) {
+  KeptPictures pictures(context);
+  renderAndKeep(context, pictures);
+  std::vector<CellResult> cells = lastCells(context.plan, pictures);
   const Clock::time_point start = Clock::now();
-  Suite suite = trialSuite(context.suite);
-  const Plan plan = trialPlan(context.plan);
-  const RunContext trial{suite,           context.scenes, plan, context.device, context.store, context.directory,
-                         context.progress};
-  std::vector<CellResult> cells = runPlan(trial).cells;
+  Suite suite = context.suite;
+  const RunContext trial{suite,         context.scenes,    context.plan,    context.device,
+                         context.store, context.directory, context.progress};
+  rescore(trial, cells);
   Ranking ranking{rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}};
   const char* reason = "more samples would take longer than the budget";
   double roundSeconds = 0;
@@ -97,10 +91,6 @@ Ranking decideRanking(const RunContext& context, double budgetSeconds) {
   }
   ranking.sentence = sentenceOf(ranking, reason);
   return ranking;
-}
-
-PlanWork computeDecidingWork(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store) {
-  return computeWork(trialSuite(suite), scenes, trialPlan(plan), store);
 }
 
 void writeRanking(const Ranking& ranking, const std::filesystem::path& folder) {

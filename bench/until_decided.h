@@ -7,7 +7,6 @@
 
 #include "bench/runner.h"
 #include "bench/verdict.h"
-#include "bench/work.h"
 
 namespace pb {
 
@@ -20,14 +19,12 @@ struct Ranking {
   bool isDecided() const { return state.undecided == 0; }
 };
 
-// Renders the last measured frame of every sequence, then lowers max_noise by factors of 4 and scores the pictures anew
-// until verdicts by HDR-FLIP decide every pair of cells of a scene, the next step, four times as long as the last one,
-// would not end within the budget, or samples are at their limit. max_noise never rises above the suite's own. The
-// references stay in the store. The context's directory is for the pictures and of no use afterwards.
+// Renders the measured frames of every sequence and keeps them for the run (bench/kept_pictures.h), as pictures don't
+// depend on samples of the reference. Then scores the last ones, and lowers max_noise by factors of 4 and scores them
+// anew until verdicts by HDR-FLIP decide every pair of cells of a scene, the next step, four times as long as the last
+// one, would not end within the budget (of scoring), or samples are at their limit. max_noise never rises above the
+// suite's own. The references stay in the store.
 Ranking decideRanking(const RunContext& context, double budgetSeconds);
-
-// What it does at least, without the samples that it asks for.
-PlanWork computeDecidingWork(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store);
 
 // A ranking in the folder of its run, so that a run that goes on has the max_noise that it was started with. Throws an
 // environment Error if it can't be written, an input Error if what is there can't be read; nullopt without any.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 
+#include "bench/attribution_renders.h"
 #include "bench/attribution_steps.h"
 #include "bench/bounce_depth.h"
 #include "bench/capture_groups.h"
@@ -13,7 +13,6 @@
 #include "bench/raster_sequences.h"
 #include "bench/truth.h"
 #include "raster/captured_faces.h"
-#include "raster/lookup.h"
 #include "raster/probe_layout.h"
 
 namespace pb {
@@ -27,6 +26,12 @@ constexpr int kMostModelFrames = 60;
 
 double megapixels(const ImageSettings& image, int samplesPerAxis) {
   return static_cast<double>(image.widthPx) * image.heightPx * samplesPerAxis * samplesPerAxis / kMillion;
+}
+
+double texels(const ProbeViews& views) {
+  double count = 0;
+  for (const ProbeView& probe : views.probes) count += 6.0 * probe.resolutionPx * probe.resolutionPx;
+  return count;
 }
 
 class WorkCounter {
@@ -52,14 +57,15 @@ class WorkCounter {
 
   void countScene(std::size_t scene) {
     snapshots_.clear();
-    truncated_.clear();
-    maps_.clear();
+    depths_.clear();
     std::vector<const PlannedSequence*> sequences;
     for (const PlannedSequence& sequence : plan_.sequences)
       if (sequence.scene == scene) sequences.push_back(&sequence);
     if (sequences.empty()) return;
     countReferences(scene, sequences);
-    countSequences(rasterSequencesOf(sequences, suite_.scenes[scene].startFrame()));
+    const RasterSequences own = rasterSequencesOf(sequences, suite_.scenes[scene].startFrame());
+    countSequences(own);
+    if (suite_.attribution) countAttribution(own);
     pictures_ += static_cast<double>(sequences.size());
     work_.units[{"intervals", suite_.name}] = pictures_ * megapixels(suite_.image, 1) * kScoring;
   }
@@ -81,15 +87,18 @@ class WorkCounter {
 
   void addMatchedDepths(std::size_t scene, const std::vector<const PlannedSequence*>& sequences,
                         std::set<std::pair<int, std::optional<int>>>& pictures) {
-    const RasterSequences own = rasterSequencesOf(sequences, suite_.scenes[scene].startFrame());
+    followDepths(rasterSequencesOf(sequences, suite_.scenes[scene].startFrame()));
+    for (const auto& [cell, depth] : depths_) pictures.emplace(cell.second, depth);
+  }
+
+  void followDepths(const RasterSequences& own) {
+    if (own.sequences.empty()) return;
+    const std::size_t scene = own.sequences.front()->scene;
     const auto depths = bounceDepths(
         own.techniques, own.first, own.last, [&](int frame) { return snapshot(scene, frame); }, suite_.image.heightPx);
     for (std::size_t i = 0; i < depths.size(); ++i)
-      for (const int frame : own.sequences[i]->frames) {
-        const int depth = depths[i][static_cast<std::size_t>(frame - own.first)];
-        pictures.emplace(frame, depth);
-        depths_[{own.sequences[i], frame}] = depth;
-      }
+      for (const int frame : own.sequences[i]->frames)
+        depths_[{own.sequences[i], frame}] = depths[i][static_cast<std::size_t>(frame - own.first)];
   }
 
   void countSequences(const RasterSequences& own) {
@@ -129,35 +138,44 @@ class WorkCounter {
         static_cast<double>(shown) * (samples + kRender) + (isCapturing ? captured * face : 0.0) +
         static_cast<double>(sequence.frames.size()) * kScoring * megapixels(suite_.image, 1);
     countCost(block, faces * face);
-    countAttribution(sequence, probes);
   }
 
-  // Truncated truths and traced maps; what is rasterised is little beside them. Cells of a frame that have the same
-  // depth share them; where depths are not followed for the errors, they count as different.
-  void countAttribution(const PlannedSequence& sequence, int probes) {
-    const Technique& technique = sequence.technique;
-    if (sequence.attributedFrames.empty() || !takesOracleMaps(technique)) return;
+  // Truncated truths and traced maps; what is rasterised takes little beside them.
+  void countAttribution(const RasterSequences& own) {
+    std::map<int, std::vector<std::size_t>> attributed;  // by frame
+    for (std::size_t i = 0; i < own.sequences.size(); ++i)
+      if (takesOracleMaps(own.techniques[i]))
+        for (const int frame : own.sequences[i]->attributedFrames) attributed[frame].push_back(i);
+    if (attributed.empty()) return;
+    const std::size_t scene = own.sequences.front()->scene;
+    if (depths_.empty()) followDepths(own);
     double& units = work_.units[{"attribution", suite_.name}];
-    for (const int frame : sequence.attributedFrames) {
-      const auto depth = depths_.find({&sequence, frame});
-      const bool isKnown = depth != depths_.end();
-      // Of local light it is the truth that the cell is matched to, which the store has by then.
-      const bool isStored = isKnown && suite_.reference.diffuse == DiffuseTransport::local;
-      if (!isStored && (!isKnown || truncated_.emplace(frame, depth->second).second))
-        units += megapixels(suite_.image, suite_.image.samplesPerAxis) * suite_.reference.spp;
-      for (const RasterStep& step : rasterSteps(technique, suite_.attribution->resolution))
-        if (step.isTraced && (!isKnown || areNewMaps(frame, depth->second, step.technique)))
-          units += 6.0 * probes * step.technique.resolution * step.technique.resolution / kMillion *
-                   texelSpp(*suite_.attribution, suite_.reference.spp);
+    for (const auto& [frame, sequences] : attributed) {
+      std::vector<AttributedCell> cells;
+      for (const std::size_t i : sequences) {
+        const int depth = depths_.at({own.sequences[i], frame});
+        cells.push_back({own.techniques[i], depth, truncatedDepth(suite_.reference, depth)});
+      }
+      units += truncatedTruths(cells) * megapixels(suite_.image, suite_.image.samplesPerAxis) * suite_.reference.spp;
+      const AttributionRenders renders =
+          attributionRenders(cells, snapshot(scene, frame), suite_.attribution->resolution, suite_.image.heightPx);
+      work_.attribution.images += renders.imageCount();
+      work_.attribution.traced += renders.traced.size();
+      work_.attribution.captured += renders.fresh.size();
+      for (const TracedSet& set : renders.traced)
+        units += texels(set.views) / kMillion * texelSpp(*suite_.attribution, suite_.reference.spp);
     }
   }
 
-  // By the settings that the key of bench/traced_maps.cpp depends on.
-  bool areNewMaps(int frame, int depth, const Technique& technique) {
-    return maps_
-        .emplace(frame, depth, technique.resolution, technique.placement, technique.resolutionScale,
-                 technique.refraction, needsDistances(technique))
-        .second;
+  // Pictures of local light that neither are the truth nor one that cells are matched to, which the store has by then.
+  double truncatedTruths(const std::vector<AttributedCell>& cells) const {
+    const bool isLocal = suite_.reference.diffuse == DiffuseTransport::local;
+    std::set<std::optional<int>> depths;
+    if (!isLocal) depths.insert(suite_.reference.depth);
+    if (!isLocal || !suite_.reference.matched)
+      for (const AttributedCell& cell : cells) depths.insert(cell.truncated);
+    if (isLocal) depths.erase(suite_.reference.depth);
+    return static_cast<double>(depths.size());
   }
 
   // Blocks of frames, a warm-up and instrumented frames, and eight plain frames a repetition.
@@ -175,21 +193,13 @@ class WorkCounter {
   const Plan& plan_;
   TruthMaker maker_;
   PlanWork work_;
-  double pictures_ = 0;                                           // that get intervals
-  std::map<std::pair<const PlannedSequence*, int>, int> depths_;  // by frame: of the truth that it is matched to
+  double pictures_ = 0;  // that get intervals
   // Of one scene.
   std::map<int, std::shared_ptr<const Snapshot>> snapshots_;
-  std::set<std::pair<int, int>> truncated_;  // by frame and depth
-  std::set<std::tuple<int, int, int, Placement, ResolutionScale, Refraction, bool>> maps_;
+  std::map<std::pair<const PlannedSequence*, int>, int> depths_;  // by measured frame: bounces
 };
 
 }  // namespace
-
-void PlanWork::addDeciding(const PlanWork& work) {
-  deciding = Deciding{work.frames, work.captures, work.units};
-  std::erase_if(deciding->units,
-                [](const auto& entry) { return entry.first.first == "references" || entry.first.first == "control"; });
-}
 
 PlanWork computeWork(const Suite& suite, const Scenes& scenes, const Plan& plan, const ReferenceStore& store) {
   return WorkCounter(suite, scenes, plan, store).count();

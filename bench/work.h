@@ -34,15 +34,14 @@ struct PlanWork {
   bool mayRefine = false;      // max_noise may ask for more than one picture a reference
   std::map<WorkKind, double> units;
 
-  // What --until-decided does before all that, at least (bench/until_decided.h); its references are among those above.
-  struct Deciding {
-    std::size_t frames = 0;
-    double captures = 0;
-    std::map<WorkKind, double> units;  // without references
-  };
-  std::optional<Deciding> deciding;
+  // Of attributions, each once (bench/attribution_renders.h): images, and the sets of maps that they show.
+  struct {
+    std::size_t images = 0, traced = 0, captured = 0;
+  } attribution{};
 
-  void addDeciding(const PlanWork& work);
+  // --until-decided scores what gets intervals before that, at least once (bench/until_decided.h). It renders nothing
+  // that a run without it would not.
+  bool untilDecided = false;
 };
 
 // Loads nothing; evaluates the scenes at the frames of the plan.

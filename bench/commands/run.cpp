@@ -115,32 +115,14 @@ int conclude(const RunOutcome& outcome, const std::optional<Ranking>& ranking) {
   return 0;
 }
 
-// Removes a folder in the end, also after an interrupt.
-class FolderRemoval {
- public:
-  explicit FolderRemoval(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  ~FolderRemoval() {
-    std::error_code kept;  // what is left behind hurts nobody
-    std::filesystem::remove_all(folder_, kept);
-  }
-  FolderRemoval(const FolderRemoval&) = delete;
-  FolderRemoval& operator=(const FolderRemoval&) = delete;
-
- private:
-  std::filesystem::path folder_;
-};
-
 // With what max_noise the ranking is decided, as far as the budget goes; of a run that goes on, as it was found before.
-Ranking decide(const RunOptions& options, const std::string& folder, const Suite& suite, const Scenes& scenes,
-               const Plan& plan, RasterDevice& device, const ReferenceStore& store) {
+Ranking decide(const RunOptions& options, const RunContext& context) {
+  const std::filesystem::path& folder = context.directory.folder();
   if (options.resume)
     if (std::optional<Ranking> found = readRanking(folder)) return *std::move(found);
-  Progress progress;  // of its own: its phases are not those of the plan
-  RunDirectory pictures(folder + "-deciding", {suite.name, "deciding"}, false);
-  const FolderRemoval removal(pictures.folder());
-  const double budget = options.budgetSeconds.value_or(std::numeric_limits<double>::infinity());
-  Ranking ranking = decideRanking({suite, scenes, plan, device, store, pictures, progress}, budget);
+  Ranking ranking = decideRanking(context, options.budgetSeconds.value_or(std::numeric_limits<double>::infinity()));
   fmt::print(stderr, "{}\n", ranking.sentence);
+  writeRanking(ranking, folder);
   return ranking;
 }
 
@@ -152,6 +134,11 @@ void note(const Ranking& ranking, const std::optional<double>& ownMaxNoise, Prov
   if (findNoisyReferences(outcome.cells, ownMaxNoise).empty()) outcome.noisyReferences.clear();
 }
 
+// What a run goes on with, the max_noise that --until-decided finds included, stands in its folder.
+RunIdentity identityOf(const Provenance& provenance, const Plan& plan, const Suite& suite, const RunOptions& options) {
+  return {suite.name, fingerprint(provenance, plan, suite) + (options.untilDecided ? " until decided" : "")};
+}
+
 int run(const RunOptions& options, const GlobalOptions& globals) {
   requireBudget(options);
   Suite suite = effectiveSuite(options);
@@ -161,7 +148,7 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   checkPlan(suite, scenes, plan, device);
   const ReferenceStore store(options.store.empty() ? defaultStoreFolder() : std::filesystem::path(options.store));
   PlanWork work = computeWork(suite, scenes, plan, store);
-  if (options.untilDecided) work.addDeciding(computeDecidingWork(suite, scenes, plan, store));
+  work.untilDecided = options.untilDecided;
   Rates rates(store.folder(), machineOf(globals));
   const std::string planned = printPlan(suite, plan) + printWork(work, rates);
   if (options.dryRun) {
@@ -176,19 +163,20 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   const std::string control = passControl(device, progress);
   const std::string folder = options.output.empty() ? "out/" + suite.name : options.output;
   const std::optional<double> ownMaxNoise = suite.reference.maxNoise;
+  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
+  // Last, as it removes an earlier run.
+  RunDirectory directory(folder, identityOf(provenance, plan, suite, options), options.resume);
   std::optional<Ranking> ranking;
   if (options.untilDecided) {
-    ranking = decide(options, folder, suite, scenes, plan, device, store);
+    ranking = decide(options, {suite, scenes, plan, device, store, directory, progress});
     suite.reference.maxNoise = ranking->maxNoise;
+    provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
   }
-  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
   provenance.controlOutcome = control;
-  // Last, as it removes an earlier run.
-  RunDirectory directory(folder, {suite.name, fingerprint(provenance, plan, suite)}, options.resume);
-  if (ranking) writeRanking(*ranking, folder);
   provenance.settings.emplace_back(kCommandSetting, commandOf(options));
   RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
-  if (!options.resume) {
+  // Rates are not those of a part of a run, nor of one whose pictures and references were there before.
+  if (!options.resume && !options.untilDecided) {
     rates.record(progress.phases(), work);
     rates.save();
   }

@@ -134,22 +134,39 @@ TEST(UntilDecided, Resumed_GoesOnWithWhatWasFound) {
   EXPECT_FALSE(std::filesystem::exists(workplace.path("out/ranking.json")));
 }
 
-TEST(UntilDecided, Interrupted_LeavesNoFolderOfItsOwn) {
+// What an interrupt leaves of the pictures is gone on with: the cells are those of a run that was left alone.
+TEST(UntilDecided, Interrupted_GoesOnWhereItWas) {
   const Workplace workplace(kNoisy);
+  ASSERT_EQ(workplace.run("whole", {"--until-decided", "--budget-s", "0.001"}).exitCode, 4);
   RunningProgram program(workplace.command("out", {"--until-decided"}));
-  const std::string folder = workplace.path("out-deciding");
+  const std::string kept = workplace.path("out/kept/pictures.jsonl");
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!std::filesystem::exists(folder) && std::chrono::steady_clock::now() < deadline)
+  while (!std::filesystem::exists(kept) && std::chrono::steady_clock::now() < deadline)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   program.signal(SIGINT);
   EXPECT_EQ(program.wait().exitCode, 130);
-  EXPECT_FALSE(std::filesystem::exists(folder));
+  const ProgramResult resumed = workplace.run("out", {"--until-decided", "--budget-s", "0.001", "--resume"});
+  EXPECT_EQ(resumed.exitCode, 4) << resumed.err;
+  const Results whole = readResults(workplace.path("whole")), results = readResults(workplace.path("out"));
+  ASSERT_EQ(results.cells.size(), whole.cells.size());
+  for (std::size_t i = 0; i < results.cells.size(); ++i) EXPECT_EQ(toJson(results.cells[i]), toJson(whole.cells[i]));
+  EXPECT_FALSE(std::filesystem::exists(workplace.path("out/kept")));
 }
 
-TEST(UntilDecided, PlansWhatIsRenderedTwice) {
+// The same search again in a run that knows nothing of the first would end elsewhere.
+TEST(UntilDecided, IsNotResumedWithoutIt) {
   const Workplace workplace(kNoisy);
-  EXPECT_THAT(workplace.run("out", {"--until-decided", "--dry-run"}).out,
-              HasSubstr("\n--until-decided renders 3 raster frames beforehand, with "));
+  ASSERT_EQ(workplace.run("out", {"--until-decided", "--budget-s", "0.001"}).exitCode, 4);
+  EXPECT_EQ(workplace.run("out", {"--resume"}).exitCode, 2);
+}
+
+TEST(UntilDecided, PlansNothingTwice) {
+  const Workplace workplace(kNoisy);
+  const std::string line = "--until-decided renders them first, and scores the last ones at least once more\n";
+  std::string with = workplace.run("out", {"--until-decided", "--dry-run"}).out;
+  ASSERT_THAT(with, HasSubstr('\n' + line));
+  with.erase(with.find(line), line.size());
+  EXPECT_EQ(with, workplace.run("out", {"--dry-run"}).out);
 }
 
 }  // namespace

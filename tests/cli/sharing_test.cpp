@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "bench/results.h"
-#include "scenes/files.h"
 #include "scenes/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/workplace.h"
 
 namespace pb {
 namespace {
@@ -77,20 +76,20 @@ const std::vector<const char*> kAlone = {
 
 class Sharing : public testing::TestWithParam<const char*> {
  protected:
-  void SetUp() override { writeFileAtomically(folder_.file("suite.toml"), kSuite); }
-
   // By key: the cells as they stand in results.json, equal texts mean equal bits, and their pictures.
   using Cells = std::map<std::string, std::pair<std::string, ImageRgba>>;
-  Cells run(const std::string& out, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {"--gl",  GetParam(),        "run",     folder_.file("suite.toml"),
-                                          "--out", folder_.file(out), "--store", folder_.file("store")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramResult result = runProgram(arguments);
+  static Cells run(const Workplace& workplace, const std::string& out, const std::vector<std::string>& more = {}) {
+    const ProgramResult result = runProgram(onBackend(workplace.command(out, more)));
     EXPECT_EQ(result.exitCode, 0) << result.err;
     Cells cells;
-    for (const CellResult& cell : readResults(folder_.file(out)).cells)
-      cells[cell.key()] = {toJson(cell), readImage(folder_.file(out + "/" + cell.pictures.rendered)).pixels};
+    for (const CellResult& cell : readResults(workplace.path(out)).cells)
+      cells[cell.key()] = {toJson(cell), readImage(workplace.path(out + "/" + cell.pictures.rendered)).pixels};
     return cells;
+  }
+
+  static std::vector<std::string> onBackend(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"--gl", GetParam()});
+    return arguments;
   }
 
   static void expectAmong(const Cells& together, const Cells& alone) {
@@ -100,32 +99,30 @@ class Sharing : public testing::TestWithParam<const char*> {
       EXPECT_TRUE(cell.second == together.at(key).second) << key;
     }
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_P(Sharing, OfCaptures_ChangesNoBitOfAnyCell) {
-  const auto together = run("together");
+  const Workplace workplace(kSuite);
+  const auto together = run(workplace, "together");
   EXPECT_EQ(together.size(), 2u * 8 + 2u * 4 + 6);
   for (std::size_t i = 0; i < kAlone.size(); ++i) {
-    const auto alone = run("alone" + std::to_string(i), {"--only", kAlone[i]});
+    const auto alone = run(workplace, "alone" + std::to_string(i), {"--only", kAlone[i]});
     EXPECT_EQ(alone.size(), 2u + 2u + 1u) << kAlone[i] << ": frames of one sequence a scene";
     expectAmong(together, alone);
   }
 }
 
 TEST_P(Sharing, OfIterationsThatRepeatNothing_ChangesNoBitOfAnyCell) {
-  writeFileAtomically(folder_.file("suite.toml"), kIterationsSuite);
-  const auto together = run("together");
+  const Workplace workplace(kIterationsSuite);
+  const auto together = run(workplace, "together");
   EXPECT_EQ(together.size(), 4u);
-  const auto alone = run("alone", {"--only", "bounces=2 "});  // of which none shares with the other
+  const auto alone = run(workplace, "alone", {"--only", "bounces=2 "});  // of which none shares with the other
   EXPECT_EQ(alone.size(), 2u);
   expectAmong(together, alone);
 }
 
 TEST_P(Sharing, IsStatedByADryRun) {
-  const ProgramResult result = runProgram(
-      {"--gl", GetParam(), "run", folder_.file("suite.toml"), "--store", folder_.file("store"), "--dry-run"});
+  const ProgramResult result = runProgram(onBackend(Workplace(kSuite).command("out", {"--dry-run"})));
   // Cube: all but one of 8 sequences of 2 frames. Teapot: 2 bounces as 1 of either policy, 2 frames. Mirrors: frame 0
   // is the same whatever the policy, but not the lookup nor the bounces.
   EXPECT_THAT(result.out, testing::HasSubstr("30 raster frames, of which 20 share another's captures")) << result.err;

@@ -61,8 +61,8 @@ TEST(Rates, OfSmallRuns_DontReplaceThoseOfLargeOnes) {
   EXPECT_EQ(rates.secondsPerUnit({"cost", "quick"}), 3.0);
 }
 
-// What is traced for attributions of a still scene, of cells of these lookups.
-double tracedFor(const std::string& lookups) {
+// Of attributions of a still scene, of cells of these lookups.
+PlanWork workOf(const std::string& lookups) {
   const TemporaryFolder folder;
   writeFileAtomically(folder.file("suite.toml"), R"(
 schema = 1
@@ -77,32 +77,49 @@ cells = "lookup"
 )");
   Suite suite = loadSuite(folder.file("suite.toml"));
   const Scenes scenes = loadScenes(suite);
-  const PlanWork work = computeWork(suite, scenes, makePlan(suite), ReferenceStore(folder.path() / "store"));
-  return work.units.at({"attribution", "attributed"});
+  return computeWork(suite, scenes, makePlan(suite), ReferenceStore(folder.path() / "store"));
 }
 
-// Maps with distances are others.
+// Faces and distances are traced for all that read them.
 TEST(PlanWork, CountsMapsThatAttributionsShareOnce) {
-  const double once = tracedFor(R"("infinite")");
-  EXPECT_GT(once, 0);
-  EXPECT_EQ(tracedFor(R"("infinite", "box-proxy", "sphere-proxy")"), once);
-  EXPECT_EQ(tracedFor(R"("infinite", "box-proxy", "distance-impostor")"), 2 * once);
+  const PlanWork one = workOf(R"("infinite")"), three = workOf(R"("infinite", "box-proxy", "distance-impostor")");
+  const WorkKind kind("attribution", "attributed");
+  EXPECT_GT(one.units.at(kind), 0);
+  EXPECT_EQ(three.units.at(kind), one.units.at(kind));
+  EXPECT_EQ(one.attribution.traced, 2u);
+  EXPECT_EQ(three.attribution.traced, 2u);
+  EXPECT_EQ(one.attribution.captured, 1u);
+  EXPECT_EQ(three.attribution.captured, 1u) << "captures show no map";
+  EXPECT_EQ(one.attribution.images, 3u) << "filtered/format is capture";
+  EXPECT_EQ(three.attribution.images, 9u);
 }
 
-TEST(PrintedWork, WithUntilDecided_CountsWhatIsRenderedTwice) {
+TEST(PrintedWork, OfAttributions_CountsImagesAndTheirMaps) {
+  const TemporaryFolder folder;
+  PlanWork work;
+  EXPECT_THAT(printWork(work, Rates(folder.path(), "here")), Not(HasSubstr("attribution")));
+  work.attribution.images = 9;
+  work.attribution.traced = 2;
+  work.attribution.captured = 1;
+  EXPECT_THAT(printWork(work, Rates(folder.path(), "here")),
+              HasSubstr("\nattribution renders 9 images from 2 traced and 1 captured sets of maps\n"));
+}
+
+// Its pictures and references are the run's: what it adds is scores.
+TEST(PrintedWork, WithUntilDecided_CountsNothingTwiceButScores) {
   const TemporaryFolder folder;
   Rates rates(folder.path(), "here");
   rates.record({"errors", "a"}, 1, 2);
-  PlanWork deciding;
-  deciding.frames = 4;
-  deciding.captures = 24;
-  deciding.units = {{{"errors", "a"}, 10}, {{"references", "a"}, 7}, {{"control", "s"}, 1}};
+  rates.record({"references", "a"}, 1, 1);
+  rates.record({"intervals", "s"}, 1, 1);
   PlanWork work;
-  work.units[{"errors", "a"}] = 30;
-  work.addDeciding(deciding);
+  work.units = {{{"errors", "a"}, 30}, {{"references", "a"}, 7}, {{"intervals", "s"}, 3}};
+  EXPECT_THAT(printWork(work, rates),
+              HasSubstr("should take about 1:10 (references 0:07, errors 1:00, intervals 0:03)"));
+  work.untilDecided = true;
   const std::string text = printWork(work, rates);
-  EXPECT_THAT(text, HasSubstr("--until-decided renders 4 raster frames beforehand, with 24 captured faces\n"));
-  EXPECT_THAT(text, HasSubstr("should take about 1:20 (deciding 0:20, errors 1:00)"));  // its references are the run's
+  EXPECT_THAT(text, HasSubstr("--until-decided renders them first, and scores the last ones at least once more\n"));
+  EXPECT_THAT(text, HasSubstr("should take about 1:13 (deciding 0:03, references 0:07, errors 1:00, intervals 0:03)"));
   EXPECT_THAT(text, HasSubstr("--until-decided may ask for more samples"));
 }
 
