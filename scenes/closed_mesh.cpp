@@ -1,13 +1,17 @@
 #include "scenes/closed_mesh.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <map>
-#include <unordered_map>
+#include <optional>
+#include <utility>
+
+#include "scenes/numbering.h"
 
 namespace pb {
 namespace {
@@ -27,42 +31,47 @@ class Welder {
 
  private:
   using Cell = std::array<std::int64_t, 3>;
-  struct CellHash {
-    std::size_t operator()(const Cell& c) const {
-      // Multipliers of Teschner et al., "Optimized Spatial Hashing for Collision Detection" (2003), section 3.
-      return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
-    }
-  };
 
   int indexOf(const glm::vec3& position) {
     const glm::dvec3 p = position;
-    const Cell cell = cellOf(p);
-    for (std::int64_t x = -1; x <= 1; ++x)
-      for (std::int64_t y = -1; y <= 1; ++y)
-        for (std::int64_t z = -1; z <= 1; ++z)
-          for (const int index : inCell({cell[0] + x, cell[1] + y, cell[2] + z}))
-            if (glm::distance(positions_[static_cast<std::size_t>(index)], p) <= tolerance_) return index;
+    if (const std::optional<int> found = near(p)) return *found;
+    const auto index = static_cast<int>(positions_.size());
+    const std::uint32_t cell = cells_.numberOf(cellOf(p));
+    if (cell == newestIn_.size()) newestIn_.push_back(kNone);
     positions_.push_back(p);
-    const int index = static_cast<int>(positions_.size()) - 1;
-    cells_[cell].push_back(index);
+    olderOf_.push_back(std::exchange(newestIn_[cell], index));
     return index;
   }
 
-  // Cells are as wide as the tolerance, so that neighbours lie in adjacent ones.
+  // The first position within the tolerance: in the cells that a box of that half width touches.
+  std::optional<int> near(const glm::dvec3& p) const {
+    const Cell low = cellOf(p - tolerance_), high = cellOf(p + tolerance_);
+    std::optional<int> first;
+    for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+        for (std::int64_t z = low[2]; z <= high[2]; ++z)
+          if (const std::optional<std::uint32_t> cell = cells_.find({x, y, z}))
+            for (int i = newestIn_[*cell]; i != kNone; i = olderOf_[static_cast<std::size_t>(i)])
+              if ((!first || i < *first) && glm::distance(positions_[static_cast<std::size_t>(i)], p) <= tolerance_)
+                first = i;
+    return first;
+  }
+
+  // Some times as wide as the tolerance: most boxes of near() lie in one to four cells, which hold few positions.
   Cell cellOf(const glm::dvec3& p) const {
-    const glm::dvec3 cell = glm::floor((p - origin_) / tolerance_);
+    constexpr double kWidth = 4.0;
+    const glm::dvec3 cell = glm::floor((p - origin_) / (kWidth * tolerance_));
     return {static_cast<std::int64_t>(cell.x), static_cast<std::int64_t>(cell.y), static_cast<std::int64_t>(cell.z)};
   }
 
-  std::span<const int> inCell(const Cell& cell) const {
-    const auto found = cells_.find(cell);
-    return found == cells_.end() ? std::span<const int>() : found->second;
-  }
+  static constexpr int kNone = -1;
 
   glm::dvec3 origin_;
   double tolerance_;
   std::vector<glm::dvec3> positions_;
-  std::unordered_map<Cell, std::vector<int>, CellHash> cells_;
+  std::vector<int> olderOf_;  // by position: the one before it in its cell
+  Numbering<Cell> cells_;
+  std::vector<int> newestIn_;  // by cell
 };
 
 // Six times the volume of the tetrahedron between the triangle and `apex`; summed over a closed mesh that faces
@@ -83,19 +92,23 @@ Boundary boundaryOf(std::span<const Mesh* const> meshes) {
   Bounds bounds;
   for (const Mesh* mesh : meshes) bounds.include(mesh->bounds);
   Welder welder(bounds);
-  std::map<std::pair<int, int>, int> surplus;  // by edge: triangles through it upwards less those downwards
+  Numbering<std::array<int, 2>> edges;
+  std::vector<int> surplus;  // by edge: triangles through it upwards less those downwards
   double volume = 0.0;
   for (const Mesh* mesh : meshes) {
     const std::vector<int> welded = welder.indicesOf(mesh->positions);
     for (std::size_t t = 0; t < mesh->triangleCount(); ++t) {
       for (std::size_t k = 0; k < 3; ++k) {
         const int a = welded[mesh->indices[3 * t + k]], b = welded[mesh->indices[3 * t + (k + 1) % 3]];
-        if (a != b) surplus[std::minmax(a, b)] += a < b ? 1 : -1;
+        if (a == b) continue;
+        const std::uint32_t edge = edges.numberOf({std::min(a, b), std::max(a, b)});
+        if (edge == surplus.size()) surplus.push_back(0);
+        surplus[edge] += a < b ? 1 : -1;
       }
       volume += signedVolume(*mesh, t, glm::dvec3(bounds.centre()));
     }
   }
-  if (std::ranges::any_of(surplus, [](const auto& edge) { return edge.second != 0; })) return Boundary::open;
+  if (std::ranges::any_of(surplus, [](int triangles) { return triangles != 0; })) return Boundary::open;
   return volume < 0.0 ? Boundary::insideOut : Boundary::closed;
 }
 

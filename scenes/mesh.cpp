@@ -1,15 +1,16 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <unordered_map>
 
 #include "scenes/deformation.h"
 #include "scenes/error.h"
+#include "scenes/numbering.h"
 #include "scenes/scene.h"
 #include "scenes/tangents.h"
 
@@ -153,27 +154,16 @@ void computeUvPerMetre(Mesh& mesh) {
     if (adjacent[v] > 0) mesh.uvPerMetre[v] /= static_cast<float>(adjacent[v]);
 }
 
-struct Corner {
-  glm::vec3 position;
-  glm::vec3 normal;
-  friend bool operator==(const Corner&, const Corner&) = default;
-};
-struct CornerHash {
-  std::size_t operator()(const Corner& c) const { return XXH3_64bits(&c, sizeof c); }
-};
-static_assert(sizeof(Corner) == 6 * sizeof(float));
-
 // Triangles are joined where they share a position with the same normal, by union-find over those corners.
 void computeSmoothingGroups(Mesh& mesh) {
-  std::unordered_map<Corner, std::uint32_t, CornerHash> corners;
-  std::vector<std::uint32_t> parent;
+  Numbering<std::array<float, 6>> corners(mesh.positions.size());  // position and normal
   std::vector<std::uint32_t> cornerOfVertex(mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const auto [found, isNew] =
-        corners.try_emplace(Corner{mesh.positions[v], mesh.normals[v]}, static_cast<std::uint32_t>(parent.size()));
-    if (isNew) parent.push_back(found->second);
-    cornerOfVertex[v] = found->second;
+    const glm::vec3 &p = mesh.positions[v], &n = mesh.normals[v];
+    cornerOfVertex[v] = corners.numberOf({p.x, p.y, p.z, n.x, n.y, n.z});
   }
+  std::vector<std::uint32_t> parent(corners.size());
+  std::iota(parent.begin(), parent.end(), 0U);
   const auto root = [&](std::uint32_t c) {
     while (parent[c] != c) c = parent[c] = parent[parent[c]];
     return c;
@@ -181,12 +171,10 @@ void computeSmoothingGroups(Mesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
     for (std::size_t k = 1; k < 3; ++k)
       parent[root(cornerOfVertex[mesh.indices[3 * t + k]])] = root(cornerOfVertex[mesh.indices[3 * t]]);
-  std::unordered_map<std::uint32_t, std::uint32_t> groups;
+  Numbering<std::uint32_t> groups;  // of roots
   mesh.smoothingGroups.resize(mesh.triangleCount());
-  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-    const std::uint32_t r = root(cornerOfVertex[mesh.indices[3 * t]]);
-    mesh.smoothingGroups[t] = groups.try_emplace(r, static_cast<std::uint32_t>(groups.size())).first->second;
-  }
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
+    mesh.smoothingGroups[t] = groups.numberOf(root(cornerOfVertex[mesh.indices[3 * t]]));
 }
 
 template <class T>

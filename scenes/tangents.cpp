@@ -1,12 +1,11 @@
 #include "scenes/tangents.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <unordered_map>
+
+#include "scenes/numbering.h"
 
 namespace pb {
 namespace {
@@ -32,10 +31,6 @@ struct Group {
 // What makes two vertices one: equal position, normal and texture coordinates.
 struct WeldKey {
   std::array<float, 8> values;
-  friend bool operator==(const WeldKey&, const WeldKey&) = default;
-};
-struct WeldKeyHash {
-  std::size_t operator()(const WeldKey& key) const { return XXH3_64bits(key.values.data(), sizeof key.values); }
 };
 
 glm::dvec3 normalisedOrZero(const glm::dvec3& v) {
@@ -77,12 +72,15 @@ class TangentSpaces {
 
  private:
   void weld(const std::vector<glm::vec2>& uvs) {
-    std::unordered_map<WeldKey, std::uint32_t, WeldKeyHash> welded;
+    Numbering<WeldKey> welded(mesh_.positions.size());
+    std::vector<std::uint32_t> firstOf;  // by number: the first vertex that was welded
     const auto representative = [&](std::uint32_t v) {
       const glm::vec3 &p = mesh_.positions[v], &n = mesh_.normals[v];
       WeldKey key{{p.x, p.y, p.z, n.x, n.y, n.z, uvs[v].x, uvs[v].y}};
       for (float& value : key.values) value += 0.0f;  // -0 equals 0
-      return welded.try_emplace(key, v).first->second;
+      const std::uint32_t number = welded.numberOf(key);
+      if (number == firstOf.size()) firstOf.push_back(v);
+      return firstOf[number];
     };
     triangles_.resize(mesh_.triangleCount());
     for (std::size_t t = 0; t < triangles_.size(); ++t)
