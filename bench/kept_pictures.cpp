@@ -26,18 +26,20 @@ class SceneKeeper {
       : c_(context), kept_(kept), scene_(scene) {}
 
   void keep() {
-    Sequences missing;
+    Sequences sequences;
     std::size_t frames = 0;
     for (const PlannedSequence& sequence : c_.plan.sequences)
-      if (sequence.scene == scene_ && !kept_.haveAll(sequence, sequence.frames)) {
-        missing.push_back(&sequence);
-        frames += sequence.frames.size();
-      }
-    if (missing.empty()) return;
+      if (sequence.scene == scene_)
+        if (const std::vector<int> missing = missingFrames(sequence); !missing.empty()) {
+          sequences.push_back(&sequence);
+          missing_[&sequence] = missing;
+          frames += missing.size();
+        }
+    if (sequences.empty()) return;
     c_.progress.begin("pictures of " + c_.scenes[scene_]->name, frames);
     TaskQueue queue(kMaxWaitingPictures);
-    for (const Sequences& group : renderedTogether(c_, missing)) keepGroup(group, queue);
-    for (const PlannedSequence* sequence : missing)
+    for (const Sequences& group : renderedTogether(c_, sequences)) keepGroup(group, queue);
+    for (const PlannedSequence* sequence : sequences)
       if (sequence->external) keepExternal(*sequence, queue);
     queue.wait();
     c_.progress.end();
@@ -55,19 +57,27 @@ class SceneKeeper {
     return last;
   }
 
+  std::vector<int> missingFrames(const PlannedSequence& sequence) const {
+    std::vector<int> missing;
+    std::ranges::copy_if(sequence.frames, std::back_inserter(missing),
+                         [&](int frame) { return kept_.find(sequence, frame) == nullptr; });
+    return missing;
+  }
+
+  bool isMissing(const PlannedSequence* sequence, int frame) const {
+    return std::ranges::binary_search(missing_.at(sequence), frame);
+  }
+
   void keepGroup(const Sequences& group, TaskQueue& queue) {
-    const auto isMeasured = [](const PlannedSequence* sequence, int frame) {
-      return std::ranges::binary_search(sequence->frames, frame);
-    };
     RasterSource source(
         c_, group, [this](int frame) { return snapshot(frame); }, integrity_);
     int last = 0;
-    for (const PlannedSequence* sequence : group) last = std::max(last, sequence->frames.back());
+    for (const PlannedSequence* sequence : group) last = std::max(last, missing_.at(sequence).back());
     for (int frame = c_.suite.scenes[scene_].startFrame(); frame <= last; ++frame) {
       throwIfInterrupted();
-      source.advance(frame, std::ranges::any_of(group, [&](const auto* s) { return isMeasured(s, frame); }));
+      source.advance(frame, std::ranges::any_of(group, [&](const auto* s) { return isMissing(s, frame); }));
       for (std::size_t i = 0; i < group.size(); ++i)
-        if (isMeasured(group[i], frame))
+        if (isMissing(group[i], frame))
           queue.run([this, &sequence = *group[i], shown = source.show(i)] {
             kept_.keep(sequence, shown);
             c_.progress.step();
@@ -78,7 +88,7 @@ class SceneKeeper {
   void keepExternal(const PlannedSequence& sequence, TaskQueue& queue) {
     throwIfInterrupted();
     queue.wait();
-    renderExternal(c_, sequence, sequence.frames, [&](const ShownFrame& shown) {
+    renderExternal(c_, sequence, missing_.at(&sequence), [&](const ShownFrame& shown) {
       kept_.keep(sequence, shown);
       c_.progress.step();
     });
@@ -87,6 +97,7 @@ class SceneKeeper {
   const RunContext& c_;
   KeptPictures& kept_;
   std::size_t scene_;
+  std::map<const PlannedSequence*, std::vector<int>> missing_;  // frames, of those that have any
   IntegrityMeter integrity_;
   std::map<int, std::shared_ptr<const Snapshot>> last_;
 };
