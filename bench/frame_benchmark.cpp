@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "bench/benchmark_clock.h"
 #include "raster/renderer.h"
 #include "scenes/builtin.h"
 #include "scenes/snapshot.h"
@@ -33,24 +32,6 @@ RasterDevice& device() {
   static RasterDevice device(GlBackend::egl);
 #endif
   return device;
-}
-
-// Of all threads of the process.
-double cpuMs() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double wallMs() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(now).count();
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 // Of a frame's time to that of the other side's frame before it.
