@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "reference/light_sampler.h"
 #include "reference/ray_log.h"
@@ -57,11 +58,13 @@ BasicPath<RayLog>::BasicPath(const TracedScene& scene, const Ray& primary, float
 template <class RayLog>
 bool BasicPath<RayLog>::arrive(Arrival& arrival) {
   const bool unoccluded = specularHits_ == settings_->depth;
+  if (!unoccluded && onlyLightCounts_ && scene_->isAllDark) return arriveInTheDark();
   const std::optional<Hit> hit = unoccluded ? std::nullopt : intersect();
   if (!hit) {
     addEnvironment();
     return false;
   }
+  if (onlyLightCounts_ && scene_->isDark(hit->instance)) return false;
   const float segment = hit->t * glm::length(ray_.direction);
   lengthMetres_ += segment;
   arrival.hit = *hit;
@@ -73,6 +76,14 @@ bool BasicPath<RayLog>::arrive(Arrival& arrival) {
     arrival.bsdf.emplace(arrival.surface, -d_, refractionAt(arrival.interface), settings_->diffuse);
   if (!lightNeedsNumbers_) addLight(vertexAt(arrival), arrival, nullptr);
   return true;
+}
+
+// Where nothing but the environment could count any more, it doesn't matter what hides it.
+template <class RayLog>
+bool BasicPath<RayLog>::arriveInTheDark() {
+  ++result_.rays;
+  if (scene_->occlusion(ray_, std::numeric_limits<float>::infinity()) == Occlusion::none) addEnvironment();
+  return false;
 }
 
 template <class RayLog>
@@ -223,6 +234,7 @@ Interface BasicPath<RayLog>::interfaceAt(const Hit& hit, const shading::Surface&
 
 template <class RayLog>
 InterfaceIor BasicPath<RayLog>::refractionAt(const Interface& interface) const {
+  if (interface.behind.material == interface.before.material) return {glm::vec3(1.0f), channel_};
   return {iorOf(interface.behind, channel_) / iorOf(interface.before, channel_), channel_};
 }
 

@@ -71,6 +71,7 @@ class BasicPath {
   void forgetRays() { result_.rays = 0; }
 
  private:
+  bool arriveInTheDark();
   std::optional<Hit> intersect();
   bool endsAt(const shading::Surface& surface) const;
   Vertex vertexAt(const Arrival& arrival) const;

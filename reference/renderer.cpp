@@ -1,5 +1,7 @@
 #include "reference/renderer.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -10,6 +12,7 @@
 #include "reference/film.h"
 #include "reference/integrator.h"
 #include "reference/light_sampler.h"
+#include "reference/ray_log.h"
 #include "reference/sampler.h"
 #include "scenes/error.h"
 
@@ -148,12 +151,20 @@ struct Rendering {
     for (std::size_t b = 0; b < batches.size(); ++b) batches[b](x, y) = pixel.batch(static_cast<int>(b));
     return rays;
   }
+
+  std::int64_t addTile(const Tile& tile, std::vector<Image>& batches) const {
+    std::int64_t rays = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) rays += addPixel(x, y, batches);
+    return rays;
+  }
 };
 
 }  // namespace
 
 struct ReferenceScene::Impl {
-  explicit Impl(std::shared_ptr<const Snapshot> snapshot_) : snapshot(std::move(snapshot_)), embree(*snapshot) {}
+  explicit Impl(std::shared_ptr<const Snapshot> snapshot_)
+      : snapshot(std::move(snapshot_)), embree(*snapshot), dark(findDarkInstances(*snapshot)) {}
 
   TracedScene without(const std::vector<int>& hidden, const std::vector<int>& hiddenFromPrimary) const {
     std::vector<int> all = hidden;
@@ -166,11 +177,14 @@ struct ReferenceScene::Impl {
     std::call_once(lightsMade, [&] { lights = std::make_unique<LightSampler>(*snapshot); });
     TracedScene scene = without(settings.hiddenInstances, settings.hiddenFromPrimary);
     if (!lights->empty()) scene.lights = lights.get();
+    scene.dark = dark;
+    scene.isAllDark = std::ranges::all_of(dark, [](unsigned char d) { return d != 0; });
     return scene;
   }
 
   std::shared_ptr<const Snapshot> snapshot;
   EmbreeScene embree;
+  std::vector<unsigned char> dark;
   mutable std::once_flag lightsMade;
   mutable std::unique_ptr<LightSampler> lights;
 };
@@ -192,14 +206,19 @@ ReferenceImage ReferenceScene::render(const shading::View& view, int widthPx, in
   ReferenceImage image;
   image.batches.assign(static_cast<std::size_t>(std::min(settings.spp, kMaxBatches)), Image(widthPx, heightPx));
   std::atomic<std::int64_t> rays = 0;  // of whole numbers: the order of adding doesn't matter
-  forEachTile(widthPx, heightPx, cancelled, [&](const Tile& tile) {
-    std::int64_t tileRays = 0;
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) tileRays += rendering.addPixel(x, y, image.batches);
-    rays += tileRays;
-  });
+  forEachTile(widthPx, heightPx, cancelled, [&](const Tile& tile) { rays += rendering.addTile(tile, image.batches); });
   image.raysTraced = rays;
   return image;
+}
+
+void ReferenceScene::recordRays(const shading::View& view, int widthPx, int heightPx, const ReferenceSettings& settings,
+                                RecordedRays& rays) const {
+  const int n = settings.samplesPerAxis;
+  const Rendering<RayLog> rendering{impl_->litFor(settings), settings, PrimaryRays(view, widthPx * n, heightPx * n),
+                                    nullptr, RayLog{&rays}};
+  std::vector<Image> batches(static_cast<std::size_t>(std::min(settings.spp, kMaxBatches)), Image(widthPx, heightPx));
+  tbb::task_arena(1).execute(
+      [&] { forEachTile(widthPx, heightPx, nullptr, [&](const Tile& tile) { rendering.addTile(tile, batches); }); });
 }
 
 Grid<SampleId> ReferenceScene::renderIds(const shading::View& view, int widthPx, int heightPx,

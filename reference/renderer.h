@@ -45,6 +45,8 @@ inline constexpr int kMaxBatches = 16;
 // Samples per primary point, by pixel.
 using SampleMap = Grid<int>;
 
+struct RecordedRays;  // reference/ray_log.h
+
 struct ReferenceImage {
   std::vector<Image> batches;
   std::int64_t raysTraced = 0;
@@ -66,6 +68,10 @@ class ReferenceScene {
   // place of settings.spp, of which its numbers must be multiples.
   ReferenceImage render(const shading::View& view, int widthPx, int heightPx, const ReferenceSettings& settings,
                         const std::atomic<bool>* cancelled = nullptr, const SampleMap* samples = nullptr) const;
+
+  // Appends the rays with which render() looks for surfaces, tile by tile as one thread does it. For measuring.
+  void recordRays(const shading::View& view, int widthPx, int heightPx, const ReferenceSettings& settings,
+                  RecordedRays& rays) const;
 
   // What each primary sample shows: (width * S) x (height * S).
   Grid<SampleId> renderIds(const shading::View& view, int widthPx, int heightPx, int samplesPerAxis) const;

@@ -58,6 +58,16 @@ std::optional<VisibleHit> nearestVisible(const TracedScene& scene, const Ray& pr
 
 }  // namespace
 
+std::vector<unsigned char> findDarkInstances(const Snapshot& snapshot) {
+  std::vector<unsigned char> dark;
+  for (const SnapshotInstance& instance : snapshot.instances) {
+    const shading::MaterialConstants& m = snapshot.materialOf(instance).constants;
+    dark.push_back(m.kind.x != shading::kSurfaceUnlit && m.alpha.x == shading::kAlphaOpaque &&
+                   glm::vec3(m.emission) == glm::vec3(0.0f));
+  }
+  return dark;
+}
+
 SurfaceAttributes interpolate(const TracedScene& scene, const Hit& hit, const glm::vec3& d, float coneWidth) {
   const SnapshotInstance& instance = scene.instanceOf(hit);
   const Mesh& mesh = *instance.mesh;

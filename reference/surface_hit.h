@@ -3,6 +3,8 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "reference/embree_scene.h"
 #include "scenes/snapshot.h"
@@ -11,6 +13,10 @@ namespace pb {
 
 class LightSampler;
 
+// One flag an instance, non-zero: opaque, and sends out no light by itself.
+using DarkInstances = std::span<const unsigned char>;
+std::vector<unsigned char> findDarkInstances(const Snapshot& snapshot);
+
 // The snapshot and its triangles, less the hidden instances.
 struct TracedScene {
   const Snapshot& snapshot;
@@ -18,6 +24,10 @@ struct TracedScene {
   HiddenInstances hidden;
   HiddenInstances hiddenFromPrimary;     // those included that are hidden from all rays
   const LightSampler* lights = nullptr;  // none: light is only found by chance
+  DarkInstances dark{};                  // empty: not known
+  bool isAllDark = false;
+
+  bool isDark(int instance) const { return !dark.empty() && dark[static_cast<std::size_t>(instance)] != 0; }
 
   std::optional<Hit> intersect(const Ray& ray) const { return embree.intersect(ray, hidden); }
   std::optional<Hit> intersectPrimary(const Ray& ray) const { return embree.intersect(ray, hiddenFromPrimary); }
