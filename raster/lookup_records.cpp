@@ -19,7 +19,7 @@ int recordTexels(LookupRecord record) { return record == LookupRecord::mirror ? 
 constexpr GLuint kMirrorTarget = kTargets + 1;
 // Groups are told apart by the alpha of captures: half floats hold integers exactly up to here.
 constexpr std::size_t kLargestGroup = 2048;
-constexpr int kCollectColumns = 8, kCollectRows = 64;  // of a work group of collect_lookups.comp
+constexpr int kCollectColumns = 64, kCollectRows = 8;  // of a work group of collect_lookups.comp
 // Regions begin at multiples of this many records: of 256 bytes, the largest alignment of bound ranges that drivers ask
 // for, in records and in entries.
 constexpr std::int64_t kRegionAlignment = 64;

@@ -155,8 +155,11 @@ CaptureLookups ScenePass::lookupsOf(std::size_t pass, const ShownProbes& probes,
     lookups.isRecordable = lookups.isRecordable && group >= 0 && !showsTwo;
     if (!lookups.isRecordable) continue;
     TexelRect& area = lookups.areas[static_cast<std::size_t>(group)];
-    area = joined(area, texelsShowing(snapshot_->instances[draw->instance].worldBounds, constants.view,
-                                      static_cast<int>(constants.image.x)));
+    const SnapshotInstance& instance = snapshot_->instances[draw->instance];
+    const Ball ball = transformed(Ball{instance.mesh->bounds.centre(), draw->mesh->radius}, instance.worldFromObject);
+    const int size = static_cast<int>(constants.image.x);
+    area = joined(area, common(texelsShowing(instance.worldBounds, constants.view, size),
+                               texelsShowing(ball, constants.view, size)));
   }
   // What shines through layers is not what the list of texels says.
   lookups.isRecordable = lookups.isRecordable && lookups.any && !isBlended;

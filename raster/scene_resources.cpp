@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "raster/inward_distance.h"
@@ -89,6 +90,12 @@ gl::Texture makeMaterialTexture(const gl::Functions& gl, int width, int height, 
       gl, {.target = GL_TEXTURE_2D, .format = GL_RGBA32F, .width = width, .height = height, .levels = levels});
 }
 
+float radiusOf(const Mesh& mesh) {
+  float radius = 0.0f;
+  for (const glm::vec3& p : mesh.positions) radius = std::max(radius, glm::distance(p, mesh.bounds.centre()));
+  return radius;
+}
+
 void uploadLevels(const gl::Texture& texture, const std::vector<ImageRgba>& levels) {
   for (GLint level = 0; level < static_cast<GLint>(levels.size()); ++level) {
     const ImageRgba& texels = levels[static_cast<std::size_t>(level)];
@@ -125,7 +132,8 @@ GpuMesh::GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_)
       vertices(gl, source->positions.size() * sizeof(Vertex)),
       indices(gl, source->indices.size() * sizeof(std::uint32_t)),
       smoothingGroups(gl, gl::bytesOf(source->smoothingGroups)),
-      indexCount(static_cast<GLsizei>(source->indices.size())) {
+      indexCount(static_cast<GLsizei>(source->indices.size())),
+      radius(radiusOf(*source)) {
   vertices.write(0, gl::bytesOf(interleave(*source)));
   indices.write(0, gl::bytesOf(source->indices));
   describeVertices(gl, *this, vertexArray.id(), indices);
@@ -154,6 +162,7 @@ void GpuMesh::show(const std::shared_ptr<const Mesh>& shape) {
     simplified.clear();
   }
   source = shape;
+  radius = radiusOf(*source);
   vertices.write(0, gl::bytesOf(interleave(*source)));
   if (inwardDistances.id() != 0) inwardDistances.write(0, gl::bytesOf(pb::inwardDistances(*source)));
 }

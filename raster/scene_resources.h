@@ -34,6 +34,7 @@ struct GpuMesh {
   gl::Buffer smoothingGroups;  // one uint a triangle
   gl::Buffer inwardDistances;  // one float a vertex, only after addInwardDistances()
   GLsizei indexCount;
+  float radius;                              // metres in object space, around the middle of the mesh's bounds
   std::map<float, GpuTriangles> simplified;  // by share of the triangles, of the same vertices
 
   // The vertex attribute of two-interface refraction (raster/inward_distance.h).

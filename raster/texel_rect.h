@@ -15,10 +15,20 @@ struct TexelRect {
   friend bool operator==(const TexelRect&, const TexelRect&) = default;
 };
 
-// The smallest rectangle that has both in it.
-TexelRect joined(const TexelRect& a, const TexelRect& b);
+struct Ball {
+  glm::vec3 centre;
+  float radius;  // metres
+};
 
-// Has in it all texels of a square view of `size` texels along an edge that show a part of the box.
+// The smallest rectangle that has both in it, and the largest one that both have in them.
+TexelRect joined(const TexelRect& a, const TexelRect& b);
+TexelRect common(const TexelRect& a, const TexelRect& b);
+
+// Has in it all texels of a square view of `size` texels along an edge that show a part of the box, or of the ball.
 TexelRect texelsShowing(const Bounds& box, const shading::View& view, int size);
+TexelRect texelsShowing(const Ball& ball, const shading::View& view, int size);
+
+// A ball that holds the transformed one. Exact for matrices that rotate, move and scale alike.
+Ball transformed(const Ball& ball, const glm::mat4& matrix);
 
 }  // namespace pb

@@ -318,6 +318,51 @@ TEST(TexelRect, HoldsOnlyWhatIsBeforeTheNearPlane) {
   EXPECT_EQ(texelsShowing(behind, view, 64).texels(), 0);
 }
 
+// A ball of radius 1 two metres ahead is seen under asin(1/2) to each side: tan(30 degrees) = 0.577 of the half width.
+TEST(TexelRect, HoldsTheBallAndAMargin) {
+  const shading::View view = viewAlongMinusZ();
+  EXPECT_EQ(texelsShowing(Ball{vec3(0.0f, 0.0f, -2.0f), 1.0f}, view, 64), (TexelRect{12, 12, 52, 52}));
+  EXPECT_EQ(texelsShowing(Ball{vec3(0.0f, 0.5f, 0.0f), 1.0f}, view, 64), (TexelRect{0, 0, 64, 64}));
+  EXPECT_EQ(texelsShowing(Ball{vec3(0.0f, 0.0f, 2.0f), 1.0f}, view, 64).texels(), 0);
+  // Beside the view and partly behind it: of the horizontal circle, all that is right of the tangent at -45 degrees.
+  EXPECT_EQ(texelsShowing(Ball{vec3(2.0f, 0.0f, 0.0f), std::sqrt(2.0f)}, view, 64).right, 64);
+}
+
+// Points of the surface of balls all around the view: those in the picture lie in the rectangle.
+TEST(TexelRect, HoldsWhateverTheBallShows) {
+  const shading::View view = viewAlongMinusZ();
+  for (int i = 0; i < 200; ++i) {
+    const auto random = [&](int k) { return static_cast<float>((i * 37 + k * 101) % 97) / 48.0f - 1.0f; };
+    const Ball ball = {3.0f * vec3(random(1), random(2), random(3)), 0.55f + 0.5f * random(4)};
+    const TexelRect rect = texelsShowing(ball, view, 64);
+    for (int row = 1; row < 16; ++row)
+      for (int column = 0; column < 32; ++column) {
+        const float polar = static_cast<float>(row) * glm::pi<float>() / 16.0f;
+        const float around = static_cast<float>(column) * glm::pi<float>() / 16.0f;
+        const vec3 direction(std::sin(polar) * std::cos(around), std::cos(polar), std::sin(polar) * std::sin(around));
+        const glm::vec4 clip = shading::clipFromWorldPosition(view, ball.centre + ball.radius * direction);
+        if (clip.w < view.origin.w || std::abs(clip.x) >= clip.w || std::abs(clip.y) >= clip.w) continue;
+        const int x = static_cast<int>(32.0f * (clip.x / clip.w + 1.0f)),
+                  y = static_cast<int>(32.0f * (clip.y / clip.w + 1.0f));
+        EXPECT_TRUE(x >= rect.left && x < rect.right && y >= rect.top && y < rect.bottom) << i << " " << x << " " << y;
+      }
+  }
+}
+
+TEST(TexelRect, TransformedBallHoldsTransformedPoints) {
+  const glm::mat4 matrix = glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), vec3(1, 2, 3)), 0.7f, vec3(0, 1, 1)),
+                                      vec3(1.0f, 2.0f, 0.5f));
+  const Ball ball = transformed(Ball{vec3(0.5f, 0.0f, 0.0f), 2.0f}, matrix);
+  EXPECT_NEAR(ball.radius, 4.0f, 1e-5f);  // the largest scale; one rotation changes no length
+  EXPECT_LT(glm::distance(ball.centre, vec3(matrix * glm::vec4(0.5f, 0.0f, 0.0f, 1.0f))), 1e-6f);
+}
+
+TEST(TexelRect, CommonPartIsInBoth) {
+  const TexelRect a = {1, 2, 5, 6};
+  EXPECT_EQ(common(a, TexelRect{3, 0, 9, 4}), (TexelRect{3, 2, 5, 4}));
+  EXPECT_EQ(common(a, TexelRect{5, 2, 9, 6}).texels(), 0);
+}
+
 TEST(TexelRect, JoinsToTheSmallestThatHoldsBoth) {
   const TexelRect a = {1, 2, 3, 4};
   EXPECT_EQ(joined(a, TexelRect{}), a);
