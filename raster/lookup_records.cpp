@@ -92,6 +92,7 @@ bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) 
   if (groups_.size() > kLargestGroup) return false;
   Captured& captured = captured_[static_cast<std::size_t>(probe)];
   std::int64_t entries = 0, recordBytes = 0;
+  bool hasMirrors = captured.mirrors.id() != 0;
   for (std::size_t group = 0; group < texels.size(); ++group) {
     const std::int64_t bytesEach = kTexelBytes * recordTexels(groups_[group].record());
     if (texels[group] * bytesEach > largestTexture_ || texels[group] * kEntriesBytes > largestBlock_) return false;
@@ -99,31 +100,28 @@ bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) 
     const std::int64_t room = (texels[group] + kRegionAlignment - 1) / kRegionAlignment * kRegionAlignment;
     entries += room;
     recordBytes += room * bytesEach;
+    hasMirrors = hasMirrors || (texels[group] > 0 && groups_[group].record() == LookupRecord::mirror);
   }
-  const std::int64_t entryBytes = entries * kEntriesBytes;
-  if (!reserveMirrors(captured, texels)) return false;
-  if (recordBytes <= captured.recordBytes && entryBytes <= captured.entryBytes) return true;
   recordBytes = std::max(recordBytes, captured.recordBytes);
-  const std::int64_t allEntryBytes = std::max(entryBytes, captured.entryBytes);
-  if (bytes() - captured.recordBytes - captured.entryBytes + recordBytes + allEntryBytes > allowedBytes_) return false;
-  captured.records = gl::Buffer();  // first, so that both needn't fit
-  captured.entries = gl::Buffer();
-  captured.recordBytes = recordBytes;
-  captured.entryBytes = allEntryBytes;
-  if (recordBytes > 0) captured.records = gl::Buffer(gl_, static_cast<std::size_t>(recordBytes));
-  captured.entries = gl::Buffer(gl_, static_cast<std::size_t>(allEntryBytes));
-  return true;
-}
-
-bool LookupRecords::reserveMirrors(Captured& captured, const std::vector<std::int64_t>& texels) const {
-  bool any = false;
-  for (std::size_t group = 0; group < texels.size(); ++group)
-    any = any || (texels[group] > 0 && groups_[group].record() == LookupRecord::mirror);
-  if (!any || captured.mirrors.id() != 0) return true;
-  if (bytes() + mirrorBytes(resolution_) > allowedBytes_) return false;
-  captured.mirrors = gl::makeTexture(
-      gl_,
-      {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = resolution_, .height = resolution_, .layers = 6});
+  const std::int64_t entryBytes = std::max(entries * kEntriesBytes, captured.entryBytes);
+  const std::int64_t before = bytesOf(captured);
+  const std::int64_t after = recordBytes + entryBytes + (hasMirrors ? mirrorBytes(resolution_) : 0);
+  if (after == before) return true;
+  if (bytes() - before + after > allowedBytes_) return false;
+  if (hasMirrors && captured.mirrors.id() == 0)
+    captured.mirrors = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
+                                             .format = GL_RGBA32F,
+                                             .width = resolution_,
+                                             .height = resolution_,
+                                             .layers = 6});
+  const auto grow = [&](gl::Buffer& buffer, std::int64_t& held, std::int64_t wanted) {
+    if (wanted == held) return;
+    buffer = gl::Buffer();  // first, so that both needn't fit
+    buffer = gl::Buffer(gl_, static_cast<std::size_t>(wanted));
+    held = wanted;
+  };
+  grow(captured.records, captured.recordBytes, recordBytes);
+  grow(captured.entries, captured.entryBytes, entryBytes);
   return true;
 }
 
@@ -206,9 +204,12 @@ void LookupRecords::bind(const Captured& captured, std::size_t group, GLenum acc
 
 std::int64_t LookupRecords::bytes() const {
   std::int64_t sum = targetBytes(resolution_);
-  for (const Captured& captured : captured_)
-    sum += captured.recordBytes + captured.entryBytes + (captured.mirrors.id() != 0 ? mirrorBytes(resolution_) : 0);
+  for (const Captured& captured : captured_) sum += bytesOf(captured);
   return sum;
+}
+
+std::int64_t LookupRecords::bytesOf(const Captured& captured) const {
+  return captured.recordBytes + captured.entryBytes + (captured.mirrors.id() != 0 ? mirrorBytes(resolution_) : 0);
 }
 
 }  // namespace pb

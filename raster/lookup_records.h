@@ -102,7 +102,7 @@ class LookupRecords {
   // As in raster/shaders/lookup_records.glsl: work groups, then number of entries.
   using List = std::array<std::uint32_t, 4>;
 
-  bool reserveMirrors(Captured& captured, const std::vector<std::int64_t>& texels) const;
+  std::int64_t bytesOf(const Captured& captured) const;
   std::size_t listOf(int repetition, int probe, std::size_t group) const;
   const RecordPrograms& programsOf(const LookupGroup& group) const;
   void bind(const Captured& captured, std::size_t group, GLenum access) const;

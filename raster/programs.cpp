@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 
 #include "raster/prefilter.h"
 #include "raster/shaders/back_faces.frag.h"
@@ -37,9 +40,14 @@ std::string glslOf(const SamplerSettings& s) {
   return fmt::format("vec4({:.1f}, {:.1f}, {:.1f}, {:.1f})", s.wrapU, s.wrapV, s.magFilter, s.minFilter);
 }
 
-// Nine digits: all of a float.
+// Nine digits: all of a float. GLSL has no literals of what isn't finite.
+std::string glslOf(float v) {
+  return std::isfinite(v) ? fmt::format("{:#.9g}f", v)
+                          : fmt::format("uintBitsToFloat({:#x}u)", std::bit_cast<std::uint32_t>(v));
+}
+
 std::string glslOf(const glm::vec4& v) {
-  return fmt::format("vec4({:#.9g}f, {:#.9g}f, {:#.9g}f, {:#.9g}f)", v.x, v.y, v.z, v.w);
+  return fmt::format("vec4({}, {}, {}, {})", glslOf(v.x), glslOf(v.y), glslOf(v.z), glslOf(v.w));
 }
 
 // A constructor of a struct of vec4.

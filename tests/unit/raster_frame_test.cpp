@@ -1,6 +1,8 @@
 // What the camera sees: orientation, visibility, sampling, ids.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "scenes/builtin/shapes.h"
 #include "tests/unit/raster_fixture.h"
 
@@ -32,6 +34,16 @@ TEST_P(RasterFrame, NearHidesFarWhateverIsDrawnLast) {
     EXPECT_EQ(centreOf(image), kRed);
     EXPECT_EQ(image(2, 2), kBlue);
   }
+}
+
+// Its light, which shaders know as constants, is not finite.
+TEST_P(RasterFrame, SkyAsBrightAsFloatsGoIsRendered) {
+  Scene scene = makeEmptyScene(vec3(std::numeric_limits<float>::max()));
+  scene.environment.ambient.constant = glm::vec4(std::numeric_limits<float>::infinity());
+  addBox(scene, vec3(0), vec3(0.5f), makeUnlit(kRed));
+  const Image image = render(*snapshotOf(std::move(scene)));
+  EXPECT_EQ(centreOf(image), kRed);
+  EXPECT_GT(image(2, 2).x, 6e4f);
 }
 
 TEST_P(RasterFrame, BackFacesAreSeenOnDoubleSidedMaterialsOnly) {
