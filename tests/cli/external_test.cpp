@@ -114,6 +114,19 @@ TEST(External, PerfectPictures_HaveNoErrorAndTheirOwnTimes) {
   EXPECT_TRUE(fs::exists(workplace.path("run/images/0-mirrors-frame2-external=engine.exr")));
 }
 
+// Its pictures and times are kept for the run.
+TEST(External, WithUntilDecided_RunsOnce) {
+  const Workplace workplace;
+  ASSERT_EQ(workplace.run(workplace.engine(), "plain", {}, 1).exitCode, 0);
+  ASSERT_EQ(workplace.jobs().size(), 1u);
+  const ProgramResult result = workplace.run(workplace.engine(), "run", {"--until-decided"}, 1);
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(workplace.jobs().size(), 2u);
+  const std::vector<CellResult> cells = workplace.externalCells("run"), plain = workplace.externalCells("plain");
+  ASSERT_EQ(cells.size(), plain.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(toJson(cells[i]), toJson(plain[i]));
+}
+
 TEST(External, Job_HasAllFramesUpToTheLastAndAFolderThatIsGoneAfterwards) {
   const Workplace workplace;
   ASSERT_EQ(workplace.run(workplace.engine(), "run").exitCode, 0);
