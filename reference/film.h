@@ -41,26 +41,30 @@ class PixelBatches {
   int batchCount_;
   int points_ = 0;
   std::array<glm::dvec3, kMaxBatches> sums_{};
+  // Of the point that is being added; 0 between points.
+  std::array<glm::dvec3, kMaxBatches> pointSums_{};
+  std::array<int, kMaxBatches> pointCounts_{};
 };
 
 // Sample i goes to batch (i + i / n + points) mod n of the half's n.
 template <class SampleOf>
 void PixelBatches::addPoint(int samples, const SampleOf& sampleOf) {
   const int batchesOfHalf = batchCount_ / 2;
-  std::array<glm::dvec3, kMaxBatches> sums{};
-  std::array<int, kMaxBatches> counts{};
   for (int half = 0; half < 2; ++half)
     for (int i = 0, turn = points_ % batchesOfHalf, left = batchesOfHalf; i < samples / 2; ++i) {
       const auto batch = static_cast<std::size_t>(2 * turn + half);
-      sums[batch] += glm::dvec3(sampleOf(half, i));
-      ++counts[batch];
+      pointSums_[batch] += glm::dvec3(sampleOf(half, i));
+      ++pointCounts_[batch];
       turn = turn + 1 == batchesOfHalf ? 0 : turn + 1;
       if (--left > 0) continue;
       left = batchesOfHalf;
       turn = turn + 1 == batchesOfHalf ? 0 : turn + 1;
     }
-  for (std::size_t b = 0; b < static_cast<std::size_t>(batchCount_); ++b)
-    sums_[b] += sums[b] / static_cast<double>(counts[b]);
+  for (std::size_t b = 0; b < static_cast<std::size_t>(batchCount_); ++b) {
+    sums_[b] += pointSums_[b] / static_cast<double>(pointCounts_[b]);
+    pointSums_[b] = glm::dvec3(0.0);
+    pointCounts_[b] = 0;
+  }
   ++points_;
 }
 

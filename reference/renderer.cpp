@@ -50,12 +50,17 @@ HiddenInstances hiddenFlags(const Snapshot& snapshot, const std::vector<int>& hi
   return flags;
 }
 
+// The bits of a number below 2^16 at the even places.
+std::uint32_t spreadBits(std::uint32_t v) {
+  v = (v | v << 8) & 0x00ff00ffu;
+  v = (v | v << 4) & 0x0f0f0f0fu;
+  v = (v | v << 2) & 0x33333333u;
+  return (v | v << 1) & 0x55555555u;
+}
+
 // Interleaved bits of two numbers below 2^16.
 std::uint32_t mortonCode(int x, int y) {
-  std::uint32_t code = 0;
-  for (int bit = 0; bit < 16; ++bit)
-    code |= static_cast<std::uint32_t>((x >> bit & 1) | (y >> bit & 1) << 1) << (2 * bit);
-  return code;
+  return spreadBits(static_cast<std::uint32_t>(x)) | spreadBits(static_cast<std::uint32_t>(y)) << 1;
 }
 
 // Rays through the centres of a regular grid of samples, one a sample of the raster.
