@@ -116,6 +116,7 @@ void BounceIterations::drawProbe(const std::vector<ProbeFace>& faces, Run& run) 
     if (isRecorded) records_->endCapture(f, lookups[i], maps_.captured(f.probe));
     if (history_) history_->blend(f, target, maps_.captured(f.probe), run.isLast);
   }
+  if (records_) records_->endProbe(faces.front().probe, maps_.captured(faces.front().probe));
 }
 
 // Decides what later iterations redo of the faces of one probe, which are about to be drawn. Their lookups are recorded

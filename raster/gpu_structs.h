@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 
 #include "scenes/shading/shading.h"
 
 namespace pb::gpu {
 
+using glm::ivec4;
 using glm::mat4;
 using glm::vec4;
 using shading::Ambient;
@@ -19,6 +21,7 @@ using shading::View;
 static_assert(sizeof(PassConstants) == 7 * 16 && sizeof(SceneConstants) == 14 * 16);
 static_assert(sizeof(ProbeConstants) == 4 * 16);
 static_assert(sizeof(ShadowFace) == 5 * 16);
+static_assert(sizeof(LookupScan) == 3 * 16);
 static_assert(sizeof(InstanceConstants) == 10 * 16 && offsetof(InstanceConstants, values) == 8 * 16);
 
 }  // namespace pb::gpu

@@ -19,7 +19,7 @@ int recordTexels(LookupRecord record) { return record == LookupRecord::mirror ? 
 constexpr GLuint kMirrorTarget = kTargets + 1;
 // Groups are told apart by the alpha of captures: half floats hold integers exactly up to here.
 constexpr std::size_t kLargestGroup = 2048;
-constexpr int kCollectColumns = 64, kCollectRows = 8;  // of a work group of collect_lookups.comp
+constexpr int kTileColumns = 64, kTileRows = 8;  // of a work group of collect_lookups.comp
 // Regions begin at multiples of this many records: of 256 bytes, the largest alignment of bound ranges that drivers ask
 // for, in records and in entries.
 constexpr std::int64_t kRegionAlignment = 64;
@@ -30,7 +30,11 @@ std::int64_t mirrorBytes(int resolution) { return 6 * kTexelBytes * resolution *
 // A share that leaves room for maps, textures and the image.
 std::int64_t allowedBytes(const DeviceLimits& limits) { return limits.bytes / 4; }
 
-GLuint quotientUp(int count, int divisor) { return static_cast<GLuint>((count + divisor - 1) / divisor); }
+int quotientUp(int count, int divisor) { return (count + divisor - 1) / divisor; }
+
+int tilesOf(const gpu::LookupScan& scan) {
+  return quotientUp(scan.area.z, kTileColumns) * quotientUp(scan.area.w, kTileRows);
+}
 
 }  // namespace
 
@@ -82,6 +86,10 @@ void LookupRecords::beginFrame(const std::vector<LookupGroup>& groups) {
   if (listCount_ < lists.size()) lists_ = gl::Buffer(gl_, lists.size() * sizeof(List));
   listCount_ = std::max(listCount_, lists.size());
   if (!lists.empty()) lists_.write(0, gl::bytesOf(lists));
+  const std::size_t scans = captured_.size() * 6 * groups_.size();
+  if (scanRoom_ < scans) scans_ = gl::Buffer(gl_, scans * sizeof(gpu::LookupScan));
+  scanRoom_ = std::max(scanRoom_, scans);
+  scanCount_ = 0;
   for (Captured& captured : captured_) {
     captured.repetitions = 0;
     captured.regions.assign(groups_.size(), {});
@@ -95,7 +103,7 @@ bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) 
   bool hasMirrors = captured.mirrors.id() != 0;
   for (std::size_t group = 0; group < texels.size(); ++group) {
     const std::int64_t bytesEach = kTexelBytes * recordTexels(groups_[group].record());
-    if (texels[group] * bytesEach > largestTexture_ || texels[group] * kEntriesBytes > largestBlock_) return false;
+    if (texels[group] * bytesEach > largestTexture_) return false;
     captured.regions[group] = {entries, recordBytes, texels[group]};
     const std::int64_t room = (texels[group] + kRegionAlignment - 1) / kRegionAlignment * kRegionAlignment;
     entries += room;
@@ -104,6 +112,7 @@ bool LookupRecords::reserve(int probe, const std::vector<std::int64_t>& texels) 
   }
   recordBytes = std::max(recordBytes, captured.recordBytes);
   const std::int64_t entryBytes = std::max(entries * kEntriesBytes, captured.entryBytes);
+  if (entryBytes > largestBlock_) return false;
   const std::int64_t before = bytesOf(captured);
   const std::int64_t after = recordBytes + entryBytes + (hasMirrors ? mirrorBytes(resolution_) : 0);
   if (after == before) return true;
@@ -143,21 +152,53 @@ void LookupRecords::markDraw(GLuint program, int group, MapState map) const {
   gl_.ProgramUniform2f(program, 0, static_cast<float>(1 + group), static_cast<float>(map));
 }
 
-void LookupRecords::endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture) const {
+// Mirrors' records stay where they were drawn, and are listed later, all faces at once: the driver waits for each
+// dispatch.
+void LookupRecords::endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture) {
   writeTo(true, true);
   const Captured& captured = captured_[static_cast<std::size_t>(face.probe)];
-  gl_.BindTextureUnit(gpu::kLookupCaptureUnit, capture.id());
   for (GLuint i = 0; i < kTargets; ++i) gl_.BindTextureUnit(gpu::kLookupTargetUnit + i, targets_[i].id());
   for (std::size_t group = 0; group < groups_.size(); ++group) {
     const TexelRect& area = lookups.areas[group];
     if (area.texels() == 0) continue;
-    const int columns = area.right - area.left, rows = area.bottom - area.top;
-    gl_.UseProgram(programsOf(groups_[group]).collect);
+    gpu::LookupScan scan = {{area.left, area.top, area.right - area.left, area.bottom - area.top},
+                            {face.face, static_cast<int>(1 + group), static_cast<int>(listOf(0, face.probe, group)), 0},
+                            {}};
+    if (groups_[group].record() == LookupRecord::mirror) {
+      scan.lookedFor.w = static_cast<int>(captured.regions[group].first);
+      mirrorScans_.push_back(scan);
+      continue;
+    }
     bind(captured, group, GL_WRITE_ONLY);
-    gl_.Uniform4i(0, area.left, area.top, columns, rows);
-    gl_.Uniform3i(1, face.face, static_cast<GLint>(1 + group), static_cast<GLint>(listOf(0, face.probe, group)));
-    gl_.DispatchCompute(quotientUp(columns, kCollectColumns), quotientUp(rows, kCollectRows), 1);
+    list({scan}, general_, capture);
   }
+}
+
+void LookupRecords::endProbe(int probe, const gl::Texture& capture) {
+  if (mirrorScans_.empty()) return;
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLookupEntryBlock,
+                     captured_[static_cast<std::size_t>(probe)].entries.id());
+  list(std::move(mirrorScans_), mirrors_, capture);
+  mirrorScans_.clear();
+}
+
+void LookupRecords::list(std::vector<gpu::LookupScan> scans, const RecordPrograms& programs,
+                         const gl::Texture& capture) {
+  constexpr int kMostAcross = 32768;  // work groups; GL allows at least 65535
+  int tiles = 0;
+  for (gpu::LookupScan& scan : scans) {
+    scan.work.x = tiles;
+    tiles += tilesOf(scan);
+  }
+  scans_.write(scanCount_ * sizeof(gpu::LookupScan), gl::bytesOf(scans));
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLookupScanBlock, scans_.id());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kLookupListBlock, lists_.id());
+  gl_.BindTextureUnit(gpu::kLookupCaptureUnit, capture.id());
+  gl_.UseProgram(programs.collect);
+  gl_.Uniform3i(0, static_cast<GLint>(scanCount_), static_cast<GLint>(scanCount_ + scans.size()), tiles);
+  const int across = std::min(tiles, kMostAcross);
+  gl_.DispatchCompute(static_cast<GLuint>(across), static_cast<GLuint>(quotientUp(tiles, across)), 1);
+  scanCount_ += scans.size();
 }
 
 void LookupRecords::repeat(int probe, const ProbeMaps& maps, const std::vector<MapState>& states, float largestRadiance,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "raster/gl/objects.h"
+#include "raster/gpu_structs.h"
 #include "raster/limits.h"
 #include "raster/programs.h"
 #include "raster/refresh.h"
@@ -67,12 +68,13 @@ class LookupRecords {
   // Makes room for the records of a captured probe. texels: by group, the most there are. False if the device has none.
   bool reserve(int probe, const std::vector<std::int64_t>& texels);
 
-  // A capture is drawn between the two. What is drawn next says to which group it belongs, or that it isn't recorded
-  // (the state after beginCapture()).
+  // A capture is drawn between beginCapture() and endCapture(). What is drawn next says to which group it belongs, or
+  // that it isn't recorded (the state after beginCapture()). endProbe() follows the captures of a probe.
   void beginCapture() const { skipDraw(); }
   void markDraw(GLuint program, int group, MapState map) const;
   void skipDraw() const { writeTo(false, false); }
-  void endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture) const;
+  void endCapture(const ProbeFace& face, const CaptureLookups& lookups, const gl::Texture& capture);
+  void endProbe(int probe, const gl::Texture& capture);
 
   // Looks up what the probe's texels show of the others once more. states: by probe looked up. isLast: no other
   // repetition follows in this frame. bindMirror binds the material of a group's mirrors.
@@ -107,6 +109,7 @@ class LookupRecords {
   const RecordPrograms& programsOf(const LookupGroup& group) const;
   void bind(const Captured& captured, std::size_t group, GLenum access) const;
   void writeTo(bool mirrors, bool others) const;
+  void list(std::vector<gpu::LookupScan> scans, const RecordPrograms& programs, const gl::Texture& capture);
 
   const gl::Functions& gl_;
   std::int64_t largestBlock_;    // bytes of a buffer that shaders see
@@ -121,7 +124,10 @@ class LookupRecords {
   std::vector<LookupGroup> groups_;
   std::vector<Captured> captured_;  // by probe
   std::size_t listCount_ = 0;
-  gl::Buffer lists_;  // by repetition, probe and group
+  gl::Buffer lists_;                          // by repetition, probe and group
+  std::size_t scanRoom_ = 0, scanCount_ = 0;  // of this frame
+  gl::Buffer scans_;
+  std::vector<gpu::LookupScan> mirrorScans_;  // of the probe that is captured
 };
 
 }  // namespace pb

@@ -36,6 +36,13 @@ struct ShadowFace {
                 // the range of depths in metres
 };
 
+// A part of a captured face in which texels of one group of lookups are looked for (collect_lookups.comp).
+struct LookupScan {
+  ivec4 area;      // x y first texel, z w number of columns and rows
+  ivec4 lookedFor;  // x face, y alpha of the texels, z their list, w its first entry
+  ivec4 work;      // x number of work groups of the scans before it
+};
+
 // Uniform blocks.
 const int kPassBlock = 0;
 const int kSceneBlock = 1;
@@ -54,6 +61,7 @@ const int kLayerBlock = 3;
 const int kShadowBlock = 4;
 const int kLookupListBlock = 5;
 const int kLookupEntryBlock = 6;
+const int kLookupScanBlock = 7;
 // Image units.
 const int kLayerHeadImage = 0;
 const int kFilterTargetImage = 1;
