@@ -3,7 +3,7 @@
   blender -b --factory-startup --python-exit-code 3 --python scripts/cycles.py -- SCENE.glb -o OUT.exr [options]
 
 Blender's importer leaves out what this adds: KHR_materials_specular, the strength of emission, the constant sky in
-scenes[0].extras.skyRadiance. Matte materials (specular factor 0) become Lambert's, because Blender's Principled material
+scenes[0].extras.skyRadiance or of an exported built-in scene. Matte materials (specular factor 0) become Lambert's, because Blender's Principled material
 has Burley's diffuse lobe. Box filter, no clamping, no denoising, no adaptive sampling.
 """
 import argparse
@@ -34,6 +34,14 @@ if not hasattr(numpy, "bool"):
     numpy.bool = bool  # the importer of Blender 3.4 wants a numpy older than Debian's
 bpy.ops.import_scene.gltf(filepath=options.scene, import_shading="NORMALS")
 
+
+def sky_radiance(extras):
+    sky = extras.get("probebench", {}).get("environment", {}).get("sky")
+    if sky is None:
+        return extras.get("skyRadiance", [0.0, 0.0, 0.0])
+    if not sky["horizon"] == sky["zenith"] == sky["below"] or any(sky["glow"]):
+        sys.exit("only a constant sky can be rendered with Cycles")
+    return sky["horizon"]
 
 
 def is_matte(source):
@@ -69,7 +77,7 @@ for source in document.get("materials", []):
 
 scene = bpy.context.scene
 scene.camera = next(thing for thing in bpy.data.objects if thing.type == "CAMERA")
-sky = document["scenes"][0].get("extras", {}).get("skyRadiance", [0.0, 0.0, 0.0])
+sky = sky_radiance(document["scenes"][0].get("extras", {}))
 scene.world = bpy.data.worlds.new("sky")
 scene.world.use_nodes = True
 background = scene.world.node_tree.nodes["Background"]

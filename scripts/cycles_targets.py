@@ -14,7 +14,7 @@ import tempfile
 import zlib
 
 SCENES = {"A": "builtin:mirrors-ring", "B": "builtin:glass"}
-WIDTH, HEIGHT = 320, 180
+WIDTH, HEIGHT = 640, 360
 CYCLES_SPP = (16, 64, 256)
 REFERENCE_SAMPLES = ((16, 2), (16, 4), (64, 2), (64, 4), (64, 8))  # primary points and samples of each
 ERRORS = (1e-3, 1e-4)
