@@ -18,11 +18,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMarker = "run.json";
 constexpr const char* kJournal = "journal.jsonl";
+constexpr const char* kResults = "results.json";
 constexpr const char* kAttributionJournal = "attribution.jsonl";
 // What a run (and, for report.csv, `probebench report -o`) writes, and what it removes of an earlier one; nothing else
 // in the folder is touched.
-constexpr const char* kFiles[] = {kJournal,    kAttributionJournal, "results.json", "results.csv", "benchmark.json",
-                                  "report.md", "report.csv",        "report.html",  "ranking.json"};
+constexpr const char* kFiles[] = {kJournal,    kAttributionJournal, kResults,      "results.csv", "benchmark.json",
+                                  "report.md", "report.csv",        "report.html", "ranking.json"};
 constexpr const char* kKept = "kept";
 constexpr const char* kKeptJournal = "kept/pictures.jsonl";
 constexpr const char* kFolders[] = {"images", kKept, "report-pictures"};
@@ -134,13 +135,15 @@ void RunDirectory::appendLine(const char* name, const std::string& line) {
   if (!journal) throwEnvironmentError("'{}' can't be written: is the disk full or the folder read-only?", path);
 }
 
+bool RunDirectory::hasResults(const fs::path& folder) { return fs::exists(folder / kResults); }
+
 void RunDirectory::finish(const Results& results, const std::string& benchmarkJson) {
   const auto path = [&](const char* name) { return (folder_ / name).string(); };
   remove(keptFolder());
   if (!benchmarkJson.empty()) writeFileAtomically(path("benchmark.json"), benchmarkJson);
   writeFileAtomically(path("results.csv"), toCsv(results, describe(Technique())));
   writeFileAtomically(path("report.md"), makeReport(results, describe(Technique())));
-  writeFileAtomically(path("results.json"), toJson(results));
+  writeFileAtomically(path(kResults), toJson(results));
 }
 
 }  // namespace pb

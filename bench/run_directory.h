@@ -25,6 +25,9 @@ class RunDirectory {
   // Error for a folder that may not be used, an environment Error for one that can't be written.
   RunDirectory(std::filesystem::path folder, const RunIdentity& identity, bool resume);
 
+  // finish() has written there.
+  static bool hasResults(const std::filesystem::path& folder);
+
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path imagesFolder() const { return folder_ / "images"; }
   // Of pictures that the run still needs (bench/kept_pictures.h). It need not be there.

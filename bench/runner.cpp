@@ -28,7 +28,7 @@ class Runner {
     addIntervals(c_, outcome.cells);
     outcome.attribution = attribute(c_, outcome.cells);
     if (c_.suite.cost.repetitions > 0) outcome.benchmarkJson = measureCost(outcome.cells);
-    outcome.noisyReferences = describeNoisyReferences(outcome.cells);
+    outcome.noisyReferences = describeNoisyReferences(outcome.cells, c_.suite.reference);
     return outcome;
   }
 
@@ -42,17 +42,6 @@ class Runner {
         else
           assert(sequence.external && !skipped_.empty());
     return cells;
-  }
-
-  // From the cells, so that those of an earlier, interrupted run count too.
-  std::vector<std::string> describeNoisyReferences(const std::vector<CellResult>& cells) const {
-    const std::optional<double> limit = c_.suite.reference.maxNoise;
-    std::vector<std::string> sentences;
-    for (const NoisyReference& noisy : findNoisyReferences(cells, limit))
-      sentences.push_back(
-          fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at up to {} samples", *limit,
-                      noisy.scene, noisy.frame, noisy.noise, mostSpp(c_.suite.reference)));
-    return sentences;
   }
 
   // All costs belong to one run of the machine: they are measured together, also after --resume.

@@ -35,6 +35,15 @@ int mostSpp(const TruthSettings& settings) {
   return spp;
 }
 
+std::vector<std::string> describeNoisyReferences(const std::vector<CellResult>& cells, const TruthSettings& settings) {
+  std::vector<std::string> sentences;
+  for (const NoisyReference& noisy : findNoisyReferences(cells, settings.maxNoise))
+    sentences.push_back(
+        fmt::format("max_noise is {:g}, but the reference of {} frame {} has {:.3g} at up to {} samples",
+                    *settings.maxNoise, noisy.scene, noisy.frame, noisy.noise, mostSpp(settings)));
+  return sentences;
+}
+
 MetricsResult TruncatedTruth::compare(const Image& test, const Mask* mask) const {
   return (prepared ? *prepared : MetricsReference(mean, display)).compare(test, mask);
 }

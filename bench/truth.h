@@ -46,6 +46,10 @@ MetricValues computeFloor(const Image& mean, const Image& halfA, const Mask* mas
 // Samples per primary point that a pixel gets at most for max_noise: spp doubled as long as kMaxSpp allows.
 int mostSpp(const TruthSettings& settings);
 
+// A sentence for each reference that doesn't meet max_noise. From the cells, so that those of an earlier, interrupted
+// run count too.
+std::vector<std::string> describeNoisyReferences(const std::vector<CellResult>& cells, const TruthSettings& settings);
+
 class TruthMaker {
  public:
   // `rasterIds` gives the raster's object ids of a snapshot; it is called on the thread that calls make().

@@ -19,6 +19,7 @@
 #include "bench/report/page.h"
 #include "bench/runner.h"
 #include "bench/shell_word.h"
+#include "bench/truth.h"
 #include "bench/until_decided.h"
 #include "bench/version.h"
 #include "bench/work.h"
@@ -88,27 +89,31 @@ std::string passControl(RasterDevice& device, Progress& progress) {
   return summary(checks);
 }
 
-void finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& suite, RunDirectory& directory) {
-  for (const auto& [what, why] : outcome.skipped) provenance.settings.emplace_back(what, "skipped: " + why);
-  const Results results{std::move(provenance), suite.tolerance,          outcome.cells,
-                        suite.warnTolerance,   sceneTolerancesOf(suite), outcome.attribution};
-  directory.finish(results, outcome.benchmarkJson);
-  const std::string folder = directory.folder().string();
+// Prints what a complete run found and sees to its page.
+void showResults(const Results& results, const std::string& folder, bool hasPage) {
   const std::vector<std::string> answer = summaryLines(results, {folder, describe(Technique())});
-  writePage({{"", folder, results}}, answer, pageOfRun(folder));
+  if (!hasPage) writePage({{"", folder, results}}, answer, pageOfRun(folder));
   fmt::print("{}\n", makeReport(results, describe(Technique())));
   if (!answer.empty()) fmt::print("{}\n\n", fmt::join(answer, "\n"));
   fmt::print("report: {}\n", pageOfRun(folder));
   std::fflush(stdout);  // before what follows on the other stream
 }
 
+void finishRun(const RunOutcome& outcome, Provenance provenance, const Suite& suite, RunDirectory& directory) {
+  for (const auto& [what, why] : outcome.skipped) provenance.settings.emplace_back(what, "skipped: " + why);
+  const Results results{std::move(provenance), suite.tolerance,          outcome.cells,
+                        suite.warnTolerance,   sceneTolerancesOf(suite), outcome.attribution};
+  directory.finish(results, outcome.benchmarkJson);
+  showResults(results, directory.folder().string(), false);
+}
+
 // The verdict comes last: what the run leaves open.
-int conclude(const RunOutcome& outcome, const std::optional<Ranking>& ranking) {
+int conclude(const std::vector<std::string>& noisyReferences, const std::optional<Ranking>& ranking) {
   std::vector<std::string> open;
-  if (const std::size_t count = outcome.noisyReferences.size(); count > 0)
+  if (const std::size_t count = noisyReferences.size(); count > 0)
     open.push_back(fmt::format("{} too noisy; the first: {}",
                                count == 1 ? "1 reference is" : fmt::format("{} references are", count),
-                               outcome.noisyReferences.front()));
+                               noisyReferences.front()));
   if (ranking && !ranking->isDecided()) open.push_back(ranking->sentence);
   if (!open.empty()) throw Error(Failure::inconclusive, fmt::format("{}", fmt::join(open, "; ")));
   if (ranking) fmt::print(stderr, "{}\n", ranking->sentence);
@@ -139,6 +144,50 @@ RunIdentity identityOf(const Provenance& provenance, const Plan& plan, const Sui
   return {suite.name, fingerprint(provenance, plan, suite) + (options.untilDecided ? " until decided" : "")};
 }
 
+// What an earlier run found if it is complete: nothing of it is measured again, neither the control nor costs.
+// Techniques whose program was missing may have it now.
+std::optional<Results> readComplete(const std::string& folder, const RunIdentity& identity, const Plan& plan) {
+  if (!RunDirectory::hasResults(folder)) return std::nullopt;
+  if (RunDirectory(folder, identity, true).finishedCells().size() != plan.cellCount()) return std::nullopt;
+  Results results = readResults(folder);
+  if (results.cells.size() != plan.cellCount()) return std::nullopt;
+  return results;
+}
+
+int showComplete(const Results& results, TruthSettings reference, const RunOptions& options,
+                 const std::string& folder) {
+  fmt::print(stderr, "the run in '{}' is complete: nothing is measured again\n", folder);
+  showResults(results, folder, std::filesystem::exists(pageOfRun(folder)));
+  const std::optional<Ranking> ranking = options.untilDecided ? readRanking(folder) : std::nullopt;
+  const bool isQuiet = findNoisyReferences(results.cells, reference.maxNoise).empty();  // as note() has it
+  if (ranking) reference.maxNoise = ranking->maxNoise;
+  return conclude(isQuiet ? std::vector<std::string>() : describeNoisyReferences(results.cells, reference), ranking);
+}
+
+// Measures what is missing; `suite` is the context's.
+int measure(const RunOptions& options, Suite& suite, const RunContext& context, Provenance provenance,
+            const PlanWork& work, Rates& rates) {
+  const std::optional<double> ownMaxNoise = suite.reference.maxNoise;
+  std::optional<Ranking> ranking;
+  if (options.untilDecided) {
+    ranking = decide(options, context);
+    suite.reference.maxNoise = ranking->maxNoise;
+    const std::string control = std::move(provenance.controlOutcome);
+    provenance = makeProvenance(suite, context.scenes, context.device.info(), provenance.threads);
+    provenance.controlOutcome = control;
+  }
+  provenance.settings.emplace_back(kCommandSetting, commandOf(options));
+  RunOutcome outcome = runPlan(context);
+  // Rates are not those of a part of a run, nor of one whose pictures and references were there before.
+  if (!options.resume && !options.untilDecided) {
+    rates.record(context.progress.phases(), work);
+    rates.save();
+  }
+  if (ranking) note(*ranking, ownMaxNoise, provenance, outcome);
+  finishRun(outcome, std::move(provenance), suite, context.directory);
+  return conclude(outcome.noisyReferences, ranking);
+}
+
 int run(const RunOptions& options, const GlobalOptions& globals) {
   requireBudget(options);
   Suite suite = effectiveSuite(options);
@@ -155,34 +204,21 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
     fmt::print("{}", planned);
     return 0;
   }
+  const std::string folder = options.output.empty() ? "out/" + suite.name : options.output;
+  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
+  const RunIdentity identity = identityOf(provenance, plan, suite, options);
+  if (options.resume)
+    if (const std::optional<Results> results = readComplete(folder, identity, plan))
+      return showComplete(*results, suite.reference, options, folder);
   fmt::print(stderr, "{}", planned);
   printWarnings(scenes);
   requireExternals(suite, scenes, plan);
 
   Progress progress;
-  const std::string control = passControl(device, progress);
-  const std::string folder = options.output.empty() ? "out/" + suite.name : options.output;
-  const std::optional<double> ownMaxNoise = suite.reference.maxNoise;
-  Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
-  // Last, as it removes an earlier run.
-  RunDirectory directory(folder, identityOf(provenance, plan, suite, options), options.resume);
-  std::optional<Ranking> ranking;
-  if (options.untilDecided) {
-    ranking = decide(options, {suite, scenes, plan, device, store, directory, progress});
-    suite.reference.maxNoise = ranking->maxNoise;
-    provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
-  }
-  provenance.controlOutcome = control;
-  provenance.settings.emplace_back(kCommandSetting, commandOf(options));
-  RunOutcome outcome = runPlan({suite, scenes, plan, device, store, directory, progress});
-  // Rates are not those of a part of a run, nor of one whose pictures and references were there before.
-  if (!options.resume && !options.untilDecided) {
-    rates.record(progress.phases(), work);
-    rates.save();
-  }
-  if (ranking) note(*ranking, ownMaxNoise, provenance, outcome);
-  finishRun(outcome, std::move(provenance), suite, directory);
-  return conclude(outcome, ranking);
+  provenance.controlOutcome = passControl(device, progress);
+  RunDirectory directory(folder, identity, options.resume);  // last, as it removes an earlier run
+  return measure(options, suite, {suite, scenes, plan, device, store, directory, progress}, std::move(provenance), work,
+                 rates);
 }
 
 // Says what an interrupt leaves behind.

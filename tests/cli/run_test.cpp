@@ -173,6 +173,18 @@ TEST(Run, Interrupted_KeepsFinishedCellsAndGoesOnWithResume) {
   EXPECT_EQ(workplace.cells("stopped"), workplace.cells("whole"));
 }
 
+TEST(Resume, OfACompleteRun_MeasuresNothingAndSaysTheSame) {
+  const SmallSuite workplace;
+  const ProgramResult whole = workplace.run("run");
+  ASSERT_EQ(whole.exitCode, 0) << whole.err;
+  const std::string results = readFile(workplace.path("run/results.json"));
+  const ProgramResult resumed = workplace.run("run", {"--resume"});
+  EXPECT_EQ(resumed.exitCode, 0) << resumed.err;
+  EXPECT_EQ(resumed.out, whole.out);
+  EXPECT_THAT(resumed.err, testing::AllOf(HasSubstr("is complete"), testing::Not(HasSubstr("control"))));
+  EXPECT_EQ(readFile(workplace.path("run/results.json")), results);
+}
+
 // All four techniques share captures; of each something else is missing: nothing, a frame, the other frame, everything.
 TEST(Resume, WithOnlySomeMembersOfAGroupOpen_HasTheSameBits) {
   const SmallSuite workplace;
