@@ -95,7 +95,8 @@ class Race:
                       "--diffuse-depth", self.depth, "--size", size, "--samples", str(samples), "--spp", str(spp),
                       "--seed", str(seed), "-o", self.folder / name])
 
-    def cycles(self, spp, size=f"{WIDTH}x{HEIGHT}"):
+    def cycles(self, spp, size=None):
+        size = size or f"{WIDTH}x{HEIGHT}"
         return cpu_s(["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python", SCRIPTS / "cycles.py",
                       "--", self.scene, "-o", self.folder / "cycles.exr", "--size", size, "--spp", str(spp), "--seed", "1",
                       "--bounces", "8", "--diffuse-depth", self.depth])
