@@ -1,6 +1,7 @@
 #include "bench/attribution_runner.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "bench/attribution_renders.h"

@@ -42,8 +42,12 @@ struct EqualPictures {
 
 class ErrorRunner {
  public:
-  ErrorRunner(const RunContext& context, FinishedCells& finished)
-      : c_(context), names_(context.suite, context.scenes), kept_(context), finisher_(context, finished) {}
+  ErrorRunner(const RunContext& context, FinishedCells& finished, const SkippedExternals& skipped)
+      : c_(context),
+        names_(context.suite, context.scenes),
+        kept_(context),
+        finisher_(context, finished),
+        skipped_(skipped) {}
 
   SkippedExternals run() {
     for (std::size_t scene = 0; scene < c_.suite.scenes.size(); ++scene) measureScene(scene);
@@ -158,6 +162,7 @@ class ErrorRunner {
 
   void measureExternal(const PlannedSequence& sequence, const Truths& truths, TaskQueue& queue) {
     throwIfInterrupted();
+    if (std::ranges::find(skipped_, nameOfExternal(c_, sequence), &Skipped::first) != skipped_.end()) return;
     queue.wait();  // it may measure its times
     const std::vector<int> open = openFrames(sequence);
     std::optional<RenderedFrame> before;
@@ -255,8 +260,8 @@ class ErrorRunner {
 
 }  // namespace
 
-SkippedExternals measureErrors(const RunContext& context, FinishedCells& finished) {
-  return ErrorRunner(context, finished).run();
+SkippedExternals measureErrors(const RunContext& context, FinishedCells& finished, const SkippedExternals& skipped) {
+  return ErrorRunner(context, finished, skipped).run();
 }
 
 }  // namespace pb

@@ -8,8 +8,8 @@
 
 namespace pb {
 
-// Measures what is not finished and adds it to `finished` and to the run's journal. Returns the external techniques
-// that were skipped.
-SkippedExternals measureErrors(const RunContext& context, FinishedCells& finished);
+// Measures what is not finished and adds it to `finished` and to the run's journal. skipped: external techniques that
+// are not asked. Returns these and those that were skipped here.
+SkippedExternals measureErrors(const RunContext& context, FinishedCells& finished, const SkippedExternals& skipped);
 
 }  // namespace pb

@@ -10,6 +10,11 @@
 
 namespace pb {
 
+std::string nameOfExternal(const RunContext& context, const PlannedSequence& sequence) {
+  return fmt::format("external {} on {}", context.suite.externals[*sequence.external].name,
+                     context.suite.scenes[sequence.scene].name);
+}
+
 std::optional<Skipped> renderExternal(const RunContext& context, const PlannedSequence& sequence,
                                       const std::vector<int>& frames, const std::function<void(ShownFrame)>& take) {
   const Suite& suite = context.suite;
@@ -27,7 +32,7 @@ std::optional<Skipped> renderExternal(const RunContext& context, const PlannedSe
         shown.cell.reportedCost = cost;
         take(std::move(shown));
       });
-  const std::string what = fmt::format("external {} on {}", technique.name, scene.name);
+  const std::string what = nameOfExternal(context, sequence);
   if (!outcome.messages.empty()) context.progress.message(fmt::format("{}: {}", what, outcome.messages));
   if (!outcome.skipped) return std::nullopt;
   context.progress.message(fmt::format("skipped: {}: {}", what, *outcome.skipped));

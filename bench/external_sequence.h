@@ -14,6 +14,9 @@ namespace pb {
 // What it is and why it was skipped: a pair of SkippedExternals.
 using Skipped = std::pair<std::string, std::string>;
 
+// The first of the pair.
+std::string nameOfExternal(const RunContext& context, const PlannedSequence& sequence);
+
 // Calls `take` for each of the frames, which are measured ones of the sequence, in order. Says what the program says.
 // It may measure its times: nothing else should run.
 std::optional<Skipped> renderExternal(const RunContext& context, const PlannedSequence& sequence,

@@ -1,6 +1,7 @@
 #include "bench/kept_pictures.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "bench/external_sequence.h"
 #include "bench/interrupt.h"
@@ -19,13 +20,21 @@ fs::path pathOf(const RunDirectory& directory, const std::string& name) {
   return directory.keptFolder() / (name + ".exr");
 }
 
+Image readLossless(const fs::path& path) {
+  try {
+    return rgbOf(readImage(path.string()).pixels);
+  } catch (const Error& error) {
+    throwInputError("{}; a run without --resume renders it again", error.what());
+  }
+}
+
 // Renders what is missing of one scene.
 class SceneKeeper {
  public:
   SceneKeeper(const RunContext& context, KeptPictures& kept, std::size_t scene)
       : c_(context), kept_(kept), scene_(scene) {}
 
-  void keep() {
+  SkippedExternals keep() {
     Sequences sequences;
     std::size_t frames = 0;
     for (const PlannedSequence& sequence : c_.plan.sequences)
@@ -35,7 +44,7 @@ class SceneKeeper {
           missing_[&sequence] = missing;
           frames += missing.size();
         }
-    if (sequences.empty()) return;
+    if (sequences.empty()) return {};
     c_.progress.begin("pictures of " + c_.scenes[scene_]->name, frames);
     TaskQueue queue(kMaxWaitingPictures);
     for (const Sequences& group : renderedTogether(c_, sequences)) keepGroup(group, queue);
@@ -43,6 +52,7 @@ class SceneKeeper {
       if (sequence->external) keepExternal(*sequence, queue);
     queue.wait();
     c_.progress.end();
+    return std::move(skipped_);
   }
 
  private:
@@ -88,10 +98,11 @@ class SceneKeeper {
   void keepExternal(const PlannedSequence& sequence, TaskQueue& queue) {
     throwIfInterrupted();
     queue.wait();
-    renderExternal(c_, sequence, missing_.at(&sequence), [&](const ShownFrame& shown) {
+    std::optional<Skipped> skipped = renderExternal(c_, sequence, missing_.at(&sequence), [&](const ShownFrame& shown) {
       kept_.keep(sequence, shown);
       c_.progress.step();
     });
+    if (skipped) skipped_.push_back(*std::move(skipped));
   }
 
   const RunContext& c_;
@@ -100,6 +111,7 @@ class SceneKeeper {
   std::map<const PlannedSequence*, std::vector<int>> missing_;  // frames, of those that have any
   IntegrityMeter integrity_;
   std::map<int, std::shared_ptr<const Snapshot>> last_;
+  SkippedExternals skipped_;
 };
 
 }  // namespace
@@ -110,7 +122,6 @@ bool isAttributed(const PlannedSequence& sequence, int frame) {
 
 void keepPicture(const RunDirectory& directory, const std::string& name, const Image& image) {
   const fs::path path = pathOf(directory, name);
-  if (fs::exists(path)) return;
   std::error_code failure;
   fs::create_directories(path.parent_path(), failure);
   if (failure) throwEnvironmentError("folder '{}' can't be made: {}", path.parent_path().string(), failure.message());
@@ -119,12 +130,12 @@ void keepPicture(const RunDirectory& directory, const std::string& name, const I
 
 Image readPictureOf(const RunDirectory& directory, const CellResult& cell, const std::string& name) {
   const std::string& rendered = cell.pictures.rendered;
-  return rgbOf(readImage((rendered.empty() ? pathOf(directory, name) : directory.folder() / rendered).string()).pixels);
+  return readLossless(rendered.empty() ? pathOf(directory, name) : directory.folder() / rendered);
 }
 
 KeptPictures::KeptPictures(const RunContext& context) : c_(context), names_(context.suite, context.scenes) {
   for (const CellResult& cell : c_.directory.keptCells())
-    if (fs::exists(c_.directory.folder() / cell.pictures.rendered)) cells_.emplace(cell.key(), cell);
+    if (fs::exists(c_.directory.folder() / cell.pictures.rendered)) cells_.insert_or_assign(cell.key(), cell);
 }
 
 void KeptPictures::keep(const PlannedSequence& sequence, const ShownFrame& shown) {
@@ -148,13 +159,16 @@ bool KeptPictures::haveAll(const PlannedSequence& sequence, const std::vector<in
 
 ShownFrame KeptPictures::read(const PlannedSequence& sequence, int frame) const {
   const CellResult& kept = *find(sequence, frame);
-  ShownFrame shown{rgbOf(readImage((c_.directory.folder() / kept.pictures.rendered).string()).pixels), kept};
+  ShownFrame shown{readLossless(c_.directory.folder() / kept.pictures.rendered), kept};
   shown.cell.pictures = {};
   return shown;
 }
 
-void renderAndKeep(const RunContext& context, KeptPictures& kept) {
-  for (std::size_t scene = 0; scene < context.suite.scenes.size(); ++scene) SceneKeeper(context, kept, scene).keep();
+SkippedExternals renderAndKeep(const RunContext& context, KeptPictures& kept) {
+  SkippedExternals skipped;
+  for (std::size_t scene = 0; scene < context.suite.scenes.size(); ++scene)
+    std::ranges::move(SceneKeeper(context, kept, scene).keep(), std::back_inserter(skipped));
+  return skipped;
 }
 
 }  // namespace pb

@@ -1,5 +1,5 @@
-// Pictures that a run still needs, without loss, in its folder: so that nothing is rendered again, not even by a run
-// that was killed and goes on, and memory doesn't grow with the number of cells. They go when the run is complete.
+// Pictures that a run still needs, without loss, in its folder instead of in memory: so that nothing is rendered again,
+// not even by a run that was killed and goes on. They go when the run is complete.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@ namespace pb {
 // Whether a cell's own picture is wanted for its attribution.
 bool isAttributed(const PlannedSequence& sequence, int frame);
 
-// Writes a picture that is not there yet; `name` is PictureNames::ofFrame().
+// In place of one that an earlier run may have left; `name` is PictureNames::ofFrame().
 void keepPicture(const RunDirectory& directory, const std::string& name, const Image& image);
 
 // The picture of a finished cell: one that the run keeps, else one that keepPicture() has written. Throws an input
-// Error if it is gone.
+// Error if it is gone or damaged.
 Image readPictureOf(const RunDirectory& directory, const CellResult& cell, const std::string& name);
 
 // Measured frames that are rendered and not scored yet.
@@ -31,7 +31,8 @@ class KeptPictures {
   // From any thread.
   void keep(const PlannedSequence& sequence, const ShownFrame& shown);
 
-  // Without scores, its picture being the kept one; nullptr if there is none.
+  // Without scores, its picture being the kept one; nullptr if there is none. While nothing is being kept, as haveAll()
+  // and read().
   const CellResult* find(const PlannedSequence& sequence, int frame) const;
   bool haveAll(const PlannedSequence& sequence, const std::vector<int>& frames) const;
 
@@ -60,6 +61,7 @@ class KeptSource : public PictureSource {
 
 // Renders all measured frames of the plan that are not kept yet, external ones too, and keeps them. Wants no
 // references. Throws Error(Failure::interrupted) at the next frame after an interrupt; what is kept by then stays.
-void renderAndKeep(const RunContext& context, KeptPictures& kept);
+// Returns what was skipped.
+SkippedExternals renderAndKeep(const RunContext& context, KeptPictures& kept);
 
 }  // namespace pb

@@ -102,8 +102,10 @@ void RunDirectory::remove(const fs::path& path) const {
   if (failure) throwEnvironmentError("'{}' can't be removed: {}", path.string(), failure.message());
 }
 
+// What is a folder although it has the name of a file isn't ours, and stays.
 void RunDirectory::removeEarlierRun() const {
-  for (const char* file : kFiles) remove(folder_ / file);
+  for (const char* file : kFiles)
+    if (!fs::is_directory(folder_ / file)) remove(folder_ / file);
   for (const char* subfolder : kFolders) remove(folder_ / subfolder);
 }
 

@@ -17,13 +17,13 @@ namespace {
 
 class Runner {
  public:
-  explicit Runner(const RunContext& context) : c_(context) {
+  Runner(const RunContext& context, const SkippedExternals& skipped) : c_(context), skipped_(skipped) {
     for (const CellResult& cell : c_.directory.finishedCells()) finished_.emplace(cell.key(), cell);
   }
 
   RunOutcome run() {
     RunOutcome outcome;
-    outcome.skipped = skipped_ = measureErrors(c_, finished_);
+    outcome.skipped = skipped_ = measureErrors(c_, finished_, skipped_);
     outcome.cells = orderedCells();
     addIntervals(c_, outcome.cells);
     outcome.attribution = attribute(c_, outcome.cells);
@@ -89,6 +89,8 @@ std::shared_ptr<const Snapshot> makeSnapshot(const RunContext& context, std::siz
   return makeSnapshot(context.scenes[scene], std::max(frame, 0), suite.scenes[scene].camera, suite.image.aspect());
 }
 
-RunOutcome runPlan(const RunContext& context) { return Runner(context).run(); }
+RunOutcome runPlan(const RunContext& context, const SkippedExternals& skipped) {
+  return Runner(context, skipped).run();
+}
 
 }  // namespace pb

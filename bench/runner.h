@@ -48,7 +48,8 @@ struct RunOutcome {
   std::vector<std::string> noisyReferences;  // those that missed max_noise: one sentence each
 };
 
-// Throws Error(Failure::interrupted) at a cell boundary after an interrupt; what is done stands in the journal.
-RunOutcome runPlan(const RunContext& context);
+// skipped: external techniques that are known not to take the job, and aren't asked again. Throws
+// Error(Failure::interrupted) at a cell boundary after an interrupt; what is done stands in the journal.
+RunOutcome runPlan(const RunContext& context, const SkippedExternals& skipped = {});
 
 }  // namespace pb

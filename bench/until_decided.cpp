@@ -65,14 +65,14 @@ std::string sentenceOf(const Ranking& ranking, const char* reason) {
 
 Ranking decideRanking(const RunContext& context, double budgetSeconds) {
   KeptPictures pictures(context);
-  renderAndKeep(context, pictures);
+  SkippedExternals skipped = renderAndKeep(context, pictures);
   std::vector<CellResult> cells = lastCells(context.plan, pictures);
   const Clock::time_point start = Clock::now();
   Suite suite = context.suite;
   const RunContext trial{suite,         context.scenes,    context.plan,    context.device,
                          context.store, context.directory, context.progress};
   rescore(trial, cells);
-  Ranking ranking{rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}};
+  Ranking ranking{rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}, {}};
   const char* reason = "more samples would take longer than the budget";
   double roundSeconds = 0;
   while (!ranking.isDecided()) {
@@ -82,13 +82,14 @@ Ranking decideRanking(const RunContext& context, double budgetSeconds) {
     suite.reference.maxNoise = std::min(noise / kStep, suite.reference.maxNoise.value_or(noise));
     context.progress.message(fmt::format("{}: next max_noise {:.3g}", openPairs(ranking), *suite.reference.maxNoise));
     rescore(trial, cells);
-    ranking = {rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}};
+    ranking = {rankingState(cells, kMetric), suite.reference.maxNoise, largestNoise(cells), {}, {}};
     if (!ranking.isDecided() && ranking.noise >= kLeastGain * noise) {
       reason = "samples are at their limit";
       break;
     }
     roundSeconds = kStep * secondsSince(round);
   }
+  ranking.skipped = std::move(skipped);
   ranking.sentence = sentenceOf(ranking, reason);
   return ranking;
 }

@@ -14,6 +14,7 @@ struct Ranking {
   RankingState state;
   std::optional<double> maxNoise;  // with which it is decided, or was last tried
   double noise = 0;                // that the noisiest reference reached with it, as relMSE
+  SkippedExternals skipped;        // without a picture to rank
   std::string sentence;            // "all 66 pairs of cells are decided at noise 6e-05"
 
   bool isDecided() const { return state.undecided == 0; }

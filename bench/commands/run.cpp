@@ -144,13 +144,16 @@ RunIdentity identityOf(const Provenance& provenance, const Plan& plan, const Sui
   return {suite.name, fingerprint(provenance, plan, suite) + (options.untilDecided ? " until decided" : "")};
 }
 
-// What an earlier run found if it is complete: nothing of it is measured again, neither the control nor costs.
-// Techniques whose program was missing may have it now.
-std::optional<Results> readComplete(const std::string& folder, const RunIdentity& identity, const Plan& plan) {
+// What an earlier run found if it is complete and of the suite's tolerances, which its identity leaves out: nothing of
+// it is measured again, neither the control nor costs. Techniques whose program was missing may have it now.
+std::optional<Results> readComplete(const std::string& folder, const RunIdentity& identity, const Suite& suite,
+                                    const Plan& plan) {
   if (!RunDirectory::hasResults(folder)) return std::nullopt;
   if (RunDirectory(folder, identity, true).finishedCells().size() != plan.cellCount()) return std::nullopt;
   Results results = readResults(folder);
-  if (results.cells.size() != plan.cellCount()) return std::nullopt;
+  const bool areItsTolerances = results.tolerance == suite.tolerance && results.warnTolerance == suite.warnTolerance &&
+                                results.sceneTolerances == sceneTolerancesOf(suite);
+  if (results.cells.size() != plan.cellCount() || !areItsTolerances) return std::nullopt;
   return results;
 }
 
@@ -177,7 +180,7 @@ int measure(const RunOptions& options, Suite& suite, const RunContext& context, 
     provenance.controlOutcome = control;
   }
   provenance.settings.emplace_back(kCommandSetting, commandOf(options));
-  RunOutcome outcome = runPlan(context);
+  RunOutcome outcome = runPlan(context, ranking ? ranking->skipped : SkippedExternals());
   // Rates are not those of a part of a run, nor of one whose pictures and references were there before.
   if (!options.resume && !options.untilDecided) {
     rates.record(context.progress.phases(), work);
@@ -208,7 +211,7 @@ int run(const RunOptions& options, const GlobalOptions& globals) {
   Provenance provenance = makeProvenance(suite, scenes, device.info(), globals.threadCount());
   const RunIdentity identity = identityOf(provenance, plan, suite, options);
   if (options.resume)
-    if (const std::optional<Results> results = readComplete(folder, identity, plan))
+    if (const std::optional<Results> results = readComplete(folder, identity, suite, plan))
       return showComplete(*results, suite.reference, options, folder);
   fmt::print(stderr, "{}", planned);
   printWarnings(scenes);
@@ -249,7 +252,9 @@ void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action) 
   command->add_flag("--resume", options->resume, "go on with a run that was stopped");
   CLI::Option* decided =
       command->add_flag("--until-decided", options->untilDecided, "add reference samples until the ranking is decided");
-  command->add_option("--budget-s", options->budgetSeconds, "seconds that --until-decided may take (default: no limit)")
+  command
+      ->add_option("--budget-s", options->budgetSeconds,
+                   "seconds of scoring that --until-decided may take (default: no limit)")
       ->needs(decided);
   command->add_flag("--dry-run", options->dryRun, "print what would be measured");
   command->callback(

@@ -127,6 +127,15 @@ TEST(External, WithUntilDecided_RunsOnce) {
   for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(toJson(cells[i]), toJson(plain[i]));
 }
 
+TEST(External, SkippedWithUntilDecided_IsNotAskedAgain) {
+  const Workplace workplace;
+  const ProgramResult result = workplace.run(workplace.engine(", mode = \"skip\""), "run", {"--until-decided"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(workplace.jobs().size(), 1u);
+  EXPECT_THAT(result.out, HasSubstr("skipped: a part of the engine is not installed"));
+  EXPECT_TRUE(workplace.externalCells("run").empty());
+}
+
 TEST(External, Job_HasAllFramesUpToTheLastAndAFolderThatIsGoneAfterwards) {
   const Workplace workplace;
   ASSERT_EQ(workplace.run(workplace.engine(), "run").exitCode, 0);

@@ -185,6 +185,23 @@ TEST(Resume, OfACompleteRun_MeasuresNothingAndSaysTheSame) {
   EXPECT_EQ(readFile(workplace.path("run/results.json")), results);
 }
 
+// Numbers don't depend on them, but what is stored has to be what the suite says.
+TEST(Resume, OfACompleteRunWithOtherTolerances_StoresThem) {
+  const SmallSuite workplace;
+  ASSERT_EQ(workplace.run("run").exitCode, 0);
+  const Results before = readResults(workplace.path("run"));
+  std::string suite = readFile(workplace.suitePath());
+  const std::size_t at = suite.find("[tolerance]");
+  ASSERT_NE(at, std::string::npos);
+  writeFileAtomically(workplace.suitePath(), suite.insert(at + 11, "\nrelmse = { relative = 0.125 }"));
+  const ProgramResult resumed = workplace.run("run", {"--resume"});
+  ASSERT_EQ(resumed.exitCode, 0) << resumed.err;
+  const Results after = readResults(workplace.path("run"));
+  EXPECT_EQ(after.tolerance.size(), before.tolerance.size() + 1);
+  ASSERT_NE(findTolerance(after.tolerance, "relmse"), nullptr);
+  EXPECT_EQ(largestAllowedDelta(*findTolerance(after.tolerance, "relmse"), 1.0), 0.125);
+}
+
 // All four techniques share captures; of each something else is missing: nothing, a frame, the other frame, everything.
 TEST(Resume, WithOnlySomeMembersOfAGroupOpen_HasTheSameBits) {
   const SmallSuite workplace;

@@ -11,6 +11,7 @@
 #include "bench/error_runner.h"
 #include "scenes/files.h"
 #include "scenes/image_io.h"
+#include "tests/error_message.h"
 #include "tests/unit/raster_fixture.h"
 
 namespace pb {
@@ -100,7 +101,8 @@ TEST_P(KeptPicturesOfRuns, GiveTheRunThatRendersThem) {
   ASSERT_THAT(expected.attribution, SizeIs(4));
   RunDirectory directory(folder("run"), {"kept", ""}, false);
   {
-    KeptPictures kept(context(directory));
+    const RunContext run = context(directory);
+    KeptPictures kept(run);
     renderAndKeep(context(directory), kept);
   }
   EXPECT_EQ(textOf(runPlan(context(directory))), textOf(expected));
@@ -108,7 +110,8 @@ TEST_P(KeptPicturesOfRuns, GiveTheRunThatRendersThem) {
 
 TEST_P(KeptPicturesOfRuns, AreScoredInPlaceOfRenderedOnes) {
   RunDirectory directory(folder("run"), {"kept", ""}, false);
-  KeptPictures kept(context(directory));
+  const RunContext run = context(directory);
+  KeptPictures kept(run);
   renderAndKeep(context(directory), kept);
   EXPECT_THAT(directory.keptCells(), SizeIs(8));
   for (const CellResult& cell : directory.keptCells()) whiten(directory, cell.pictures.rendered);
@@ -119,7 +122,8 @@ TEST_P(KeptPicturesOfRuns, AreScoredInPlaceOfRenderedOnes) {
 TEST_P(KeptPicturesOfRuns, OfAKilledRun_AreGoneOnWith) {
   {
     RunDirectory directory(folder("run"), {"kept", ""}, false);
-    KeptPictures kept(context(directory));
+    const RunContext run = context(directory);
+    KeptPictures kept(run);
     Plan first = plan_;
     first.sequences.resize(2);
     const RunContext part{suite_, scenes_, first, device(), store_, directory, progress_};
@@ -128,7 +132,8 @@ TEST_P(KeptPicturesOfRuns, OfAKilledRun_AreGoneOnWith) {
   }
   RunDirectory directory(folder("run"), {"kept", ""}, true);
   EXPECT_THAT(directory.keptCells(), SizeIs(4));
-  KeptPictures kept(context(directory));
+  const RunContext run = context(directory);
+  KeptPictures kept(run);
   renderAndKeep(context(directory), kept);
   EXPECT_THAT(directory.keptCells(), SizeIs(8));
   const RunOutcome outcome = runPlan(context(directory));
@@ -136,11 +141,39 @@ TEST_P(KeptPicturesOfRuns, OfAKilledRun_AreGoneOnWith) {
     EXPECT_EQ(outcome.cells[i].metrics.sums.mse > 30.0, i < 4) << outcome.cells[i].key();
 }
 
+// Killed after a picture was written and before its cell was: the next program's picture is the one that counts.
+TEST_P(KeptPicturesOfRuns, ThatNoCellTellsOf_AreWrittenAnew) {
+  RunDirectory directory(folder("run"), {"kept", ""}, false);
+  const PlannedSequence& sequence = plan_.sequences.front();
+  const int frame = sequence.frames.front();
+  const std::string name = PictureNames(suite_, scenes_).ofFrame(sequence, frame);
+  keepPicture(directory, name, Image(suite_.image.widthPx, suite_.image.heightPx, glm::vec3(7.0f)));
+  const RunContext run = context(directory);
+  KeptPictures kept(run);
+  EXPECT_EQ(kept.find(sequence, frame), nullptr);
+  const Image black(suite_.image.widthPx, suite_.image.heightPx, glm::vec3(0.0f));
+  kept.keep(sequence, {black, makeCell(suite_, sequence, frame)});
+  EXPECT_EQ(kept.read(sequence, frame).image, black);
+}
+
+TEST_P(KeptPicturesOfRuns, ThatAreDamaged_AreNamedWithAWayOut) {
+  RunDirectory directory(folder("run"), {"kept", ""}, false);
+  const RunContext run = context(directory);
+  KeptPictures kept(run);
+  const PlannedSequence& sequence = plan_.sequences.front();
+  const int frame = sequence.frames.front();
+  kept.keep(sequence, {Image(16, 16), makeCell(suite_, sequence, frame)});
+  const std::string path = (directory.folder() / kept.find(sequence, frame)->pictures.rendered).string();
+  writeFileAtomically(path, readFile(path).substr(0, 100));
+  EXPECT_THAT(messageOf([&] { kept.read(sequence, frame); }),
+              testing::HasSubstr("a run without --resume renders it again"));
+}
+
 // The picture of a frame that the run doesn't keep in the end is there until its attribution is done.
 TEST_P(KeptPicturesOfRuns, OfAttributedFrames_AreNotRenderedAgain) {
   RunDirectory directory(folder("run"), {"kept", ""}, false);
   FinishedCells finished;
-  measureErrors(context(directory), finished);
+  measureErrors(context(directory), finished, {});
   std::vector<CellResult> cells;
   for (const auto& [key, cell] : finished) cells.push_back(cell);
   const PictureNames names(suite_, scenes_);
