@@ -16,7 +16,7 @@ namespace {
 
 // Loaded with the first context, as drivers are: with LLVM behind it, linking took 20 ms of the start of every command.
 struct Osmesa {
-  SharedLibrary library{"libOSMesa.so.8"};
+  SharedLibrary library{PROBEBENCH_OSMESA_SONAME};  // of the library that CMake found
   decltype(&OSMesaCreateContextAttribs) createContext =
       library.symbol<decltype(OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
   decltype(&OSMesaDestroyContext) destroyContext =
