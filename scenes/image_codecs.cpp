@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "scenes/error.h"
 
@@ -65,6 +66,9 @@ class ImageReader {
         throwInputError("images of 1 to {} pixels are read, '{}' declares {} x {}", kMaxPixels, name_, width, height);
     if (s.nchannels < 1 || s.nchannels > kMaxChannels)
       throwInputError("images of 1 to {} channels are read, '{}' has {}", kMaxChannels, name_, s.nchannels);
+    if (std::cmp_not_equal(s.channelnames.size(), s.nchannels))
+      throwInputError("image '{}' can't be decoded: it names {} of its {} channels", name_, s.channelnames.size(),
+                      s.nchannels);
   }
 
   // Integers were multiplied by the float 1/255, which is not always the float nearest to i/255.
@@ -137,4 +141,4 @@ std::string encode(const EncodeRequest& request) {
 }  // namespace pb
 
 extern "C" const pb::ImageCodecs probebenchImageCodecs;
-const pb::ImageCodecs probebenchImageCodecs = {pb::decode, pb::encode};
+const pb::ImageCodecs probebenchImageCodecs = {pb::kImageCodecsIdentity, pb::decode, pb::encode};

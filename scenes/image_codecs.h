@@ -12,6 +12,8 @@ namespace pb {
 
 inline constexpr char kImageCodecsFile[] = "probebench_images.so";  // as scenes/CMakeLists.txt names it
 inline constexpr char kImageCodecsSymbol[] = "probebenchImageCodecs";
+// The tool's version and a hash of this header (scenes/CMakeLists.txt): where they are equal, so are the layouts below.
+inline constexpr std::uint64_t kImageCodecsIdentity = PROBEBENCH_IMAGE_CODECS_IDENTITY;
 
 // The first channels of the display window, interleaved, top row first; 0 where the file's data window leaves it
 // uncovered.
@@ -36,6 +38,8 @@ struct EncodeRequest {
 };
 
 struct ImageCodecs {
+  // kImageCodecsIdentity as the module has it. The first member in every version: all else is read if it is ours.
+  std::uint64_t identity;
   // `format` is OpenImageIO's name of the reader, `name` is for messages. Throws an input Error.
   DecodedImage (*decode)(std::span<const std::byte> bytes, const std::string& format, const std::string& name,
                          int maxChannels);

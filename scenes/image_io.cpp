@@ -70,9 +70,18 @@ std::string formatOf(std::span<const std::byte> bytes, const std::string& name) 
   return magic->format;
 }
 
+// A module that another installation left in LD_LIBRARY_PATH, or an upgrade left behind, would be called wrongly.
+const ImageCodecs& loadCodecs() {
+  const SharedLibrary module(kImageCodecsFile);
+  const auto& found = *module.symbol<const ImageCodecs>(kImageCodecsSymbol);
+  if (found.identity != kImageCodecsIdentity)
+    throwEnvironmentError("the library '{}' belongs to another version of probebench", module.path());
+  return found;
+}
+
 // Loaded once, by whichever thread comes first.
 const ImageCodecs& codecs() {
-  static const ImageCodecs& loaded = *SharedLibrary(kImageCodecsFile).symbol<const ImageCodecs>(kImageCodecsSymbol);
+  static const ImageCodecs& loaded = loadCodecs();
   return loaded;
 }
 

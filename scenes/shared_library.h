@@ -5,12 +5,15 @@
 
 namespace pb {
 
-// Found as the dynamic linker finds a program's libraries, in its RUNPATH first (CMAKE_INSTALL_RPATH). Stays loaded
-// until the process ends, so that what it made may outlive this object.
+// Found as the dynamic linker finds a program's libraries: in LD_LIBRARY_PATH, then in the program's RUNPATH
+// (CMAKE_INSTALL_RPATH), then in the system's folders (ld.so(8)); so it may be another than the one that was built.
+// Stays loaded until the process ends, so that what it made may outlive this object.
 class SharedLibrary {
  public:
   // Throws an environment Error when it is missing or lacks libraries of its own.
   explicit SharedLibrary(const std::string& fileName);
+
+  std::string path() const;  // where it was found
 
   // A function or constant of the library by its C name; throws an environment Error when it has none of that name.
   template <class T>
