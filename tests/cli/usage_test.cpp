@@ -146,6 +146,15 @@ TEST(Start, WithoutTheModuleOfImages_OnlyWhatNeedsImagesFails) {
                 "probebench_images.so");
 }
 
+TEST(Start, WithTheModuleOfAnotherVersion_IsRefusedByItsPath) {
+  ProgramOptions options;
+  options.program = "/usr/bin/env";
+  expectRefused(runProgram({"LD_LIBRARY_PATH=" PROBEBENCH_FOREIGN_MODULE_DIR, PROBEBENCH_PROGRAM, "compare",
+                            kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.test.png"},
+                           options),
+                3, PROBEBENCH_FOREIGN_MODULE_DIR "/probebench_images.so' belongs to another version");
+}
+
 TEST(Axes, ListAndInfo_AgreeOnNames) {
   const ProgramResult list = runProgram({"axes", "list"});
   EXPECT_EQ(list.exitCode, 0);
