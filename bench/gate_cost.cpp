@@ -1,6 +1,5 @@
 #include "bench/gate_cost.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -32,12 +31,12 @@ struct Ratios {
 // Medians of the repetitions, which are what is compared.
 Ratios ratiosOf(const Pair& pair) { return {median(pair.before->ratios), median(pair.after->ratios)}; }
 
-// As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline.
+// As a change of the ratio. 25 % slower is ratio 1.25, 25 % faster is ratio 1 / 1.25 of the baseline, of plain frames
+// so long that their error doesn't count.
 double limitOf(const Ratios& ratios, double plainMs) {
-  const double relative =
-      ratios.after > ratios.before ? kCostRelativeFloor : kCostRelativeFloor / (1 + kCostRelativeFloor);
-  const double absolute = plainMs > 0 ? kCostAbsoluteFloorMs / plainMs : kInfinity;
-  return std::max(relative * ratios.before, absolute);
+  const double plainError = plainMs > 0 ? kPlainFrameErrorMs / plainMs : kInfinity;
+  const double factor = (1 + kCostRelativeFloor) * (1 + plainError);
+  return ratios.before * (ratios.after > ratios.before ? factor - 1 : 1 - 1 / factor);
 }
 
 bool isAboveFloors(const Pair& pair) {

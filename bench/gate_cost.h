@@ -10,11 +10,11 @@
 namespace pb {
 
 // A cost counts as changed when all hold: chance alone gives such a change with less than this probability, corrected
-// for all costs that are compared; it is larger than 25 % either way, and larger than 0.2 ms of this machine's frame
-// time; and a second measurement says the same.
+// for all costs that are compared; it is larger than 25 % either way, also if this machine's plain frame took 0.2 ms
+// more or less; and a second measurement says the same.
 inline constexpr double kCostSignificance = 0.05;
 inline constexpr double kCostRelativeFloor = 0.25;
-inline constexpr double kCostAbsoluteFloorMs = 0.2;
+inline constexpr double kPlainFrameErrorMs = 0.2;
 
 struct CostFindings {
   std::vector<Finding> findings;  // levels `fail` and `unconfirmed`
