@@ -36,6 +36,8 @@ PictureScores scorePicture(const Truth& truth, const Image& image, const std::op
 
 void fillIn(const PictureScores& scores, const ScoredFrame& scored, CellResult& cell) {
   const Truth& truth = *scored.frame.truth;
+  // External techniques have no counters.
+  if (!cell.counters.empty()) cell.counters.emplace_back("reference_rays", truth.raysTraced);
   cell.metrics = scores.errors.whole;
   cell.maskMetrics = scores.errors.masked;
   cell.floor = truth.floor;

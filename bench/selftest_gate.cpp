@@ -97,7 +97,7 @@ RepeatOutcome GateSelftest::repeat(int runs, const std::function<void(int)>& don
       report = check(now, c_.baseline, defaults, &again);
     }
     ++outcome.runs;
-    outcome.costsCompared = outcome.costsCompared && report.costsCompared > 0;
+    outcome.costsCompared = outcome.costsCompared && (c_.baseline.costs.empty() || report.costsCompared > 0);
     if (report.verdict == GateVerdict::fail) ++outcome.alarms;
     if (report.verdict != GateVerdict::pass) outcome.bad.push_back(report);
     const std::string text = withoutCost(now);

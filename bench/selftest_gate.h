@@ -44,7 +44,7 @@ struct RepeatOutcome {
   std::size_t remeasured = 0;   // runs in which a cost had to be measured again
   std::size_t differing = 0;    // runs whose errors or counters differ from the first one's in any bit
   std::vector<GateReport> bad;  // of the runs that did not pass
-  bool costsCompared = true;
+  bool costsCompared = true;    // those that the baseline has
 
   bool isQuiet() const { return bad.empty() && differing == 0; }
   // Upper end of the 95 % interval of the probability of an alarm after none in `runs`: 1 - 0.05^(1/runs).

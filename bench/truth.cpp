@@ -65,6 +65,7 @@ std::shared_ptr<const Truth> TruthMaker::make(std::shared_ptr<const Snapshot> sn
                                              std::move(mask), computeFloor(mean, halfA), std::move(maskFloor),
                                              MetricsReference(mean, display)});
   truth->objects = makeObjectMap(*snapshot, scene, ids, rasterIds);
+  truth->raysTraced = image.raysTraced;
   truth->truncated = makeTruncated(*truth, scene, display, depths, warnings);
   return truth;
 }

@@ -1,6 +1,7 @@
 // The truth of one scene at one frame: what every cell of that frame is scored against.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -38,6 +39,7 @@ struct Truth {
   MetricsReference metrics;       // scores images against `mean`
   ObjectMap objects{};
   std::map<int, TruncatedTruth> truncated{};  // by depth, of those that were asked for
+  std::int64_t raysTraced = 0;                // for halfA and halfB, those of earlier, noisier pictures left out
 };
 
 // Noise floor of the mean of two independent halves, ((A-B)/2)^2, as "mse" and "relmse".

@@ -23,6 +23,7 @@ constexpr double kPlantedEnergy = 0.01;
 
 struct SelftestOptions {
   std::string suite = "gate", baseline, store;
+  std::vector<std::string> faults;  // all if it is empty
   int repeats = 1;
   bool noFaults = false;
 };
@@ -45,14 +46,22 @@ void requireSamePlatform(const Baseline& baseline, const Provenance& now, const 
                             path, describe(differences)));
 }
 
-bool catchFaults(const GateSelftest& selftest) {
+std::vector<std::string> faultNames() {
+  std::vector<std::string> names;
+  for (const NamedFault& fault : plantedFaults()) names.push_back(fault.name);
+  return names;
+}
+
+// With all faults, the smallest one that is caught is searched for, too.
+bool catchFaults(const GateSelftest& selftest, const std::vector<std::string>& wanted) {
   std::vector<FaultOutcome> outcomes;
   for (const NamedFault& fault : plantedFaults()) {
+    if (!wanted.empty() && std::ranges::find(wanted, fault.name) == wanted.end()) continue;
     fmt::print(stderr, "planted: {}\n", fault.name);
     outcomes.push_back(selftest.plant(fault));
   }
   const bool all = std::ranges::all_of(outcomes, &FaultOutcome::isCaught);
-  const double smallest = all ? selftest.smallestCaughtEnergy(kPlantedEnergy) : 0.0;
+  const double smallest = all && wanted.empty() ? selftest.smallestCaughtEnergy(kPlantedEnergy) : 0.0;
   fmt::print("{}\n", printFaults(outcomes, smallest));
   return all;
 }
@@ -75,7 +84,7 @@ int runSelftest(const SelftestOptions& options, const GlobalOptions& globals) {
       selftest.repeat(options.repeats, [&](int run) { fmt::print(stderr, "unchanged run {} done\n", run); });
   fmt::print("{}\n", printRepeats(repeats));
   std::fflush(stdout);
-  const bool caught = options.noFaults || catchFaults(selftest);
+  const bool caught = options.noFaults || catchFaults(selftest, options.faults);
   return caught && repeats.isQuiet() ? 0 : static_cast<int>(Failure::verdict);
 }
 
@@ -90,6 +99,9 @@ void addSelftestGateCommand(CLI::App& app, const GlobalOptions& globals, Action&
   command->add_option("--repeats", options->repeats, "unchanged runs, which must raise no alarm")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  command->add_option("--fault", options->faults, "plant this fault alone; may be given again")
+      ->check(CLI::IsMember(faultNames()))
+      ->allow_extra_args(false);
   command->add_flag("--no-faults", options->noFaults, "the unchanged runs only");
   command->callback(
       [&action, &globals, options] { action = [&globals, options] { return runSelftest(*options, globals); }; });
