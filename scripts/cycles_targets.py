@@ -6,27 +6,21 @@ so that their noise drops out of the error, mean((x - a) (x - b) / (m^2 + 0.01))
 to an error is interpolated, or extrapolated from the last two points, along straight lines in log-log.
 """
 import math
-import os
 import pathlib
+import shutil
 import struct
 import subprocess
 import tempfile
 import zlib
+
+from measure import SCRIPTS, Skip, Used
 
 SCENES = {"A": "builtin:mirrors-ring", "B": "builtin:glass"}
 WIDTH, HEIGHT = 640, 360
 CYCLES_SPP = (16, 64, 256)
 REFERENCE_SAMPLES = ((16, 2), (16, 4), (64, 2), (64, 4), (64, 8))  # primary points and samples of each
 ERRORS = (1e-3, 1e-4)
-SCRIPTS = pathlib.Path(__file__).parent
 
-
-def cpu_s(command):
-    """Processor seconds of the command and what it starts."""
-    before = os.times()
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    after = os.times()
-    return after.children_user + after.children_system - before.children_user - before.children_system
 
 
 def read_exr(path):
@@ -91,15 +85,15 @@ class Race:
 
     def reference(self, samples, spp, seed=1, scale=1, name="reference.exr", size=None):
         size = size or f"{scale * WIDTH}x{scale * HEIGHT}"
-        return cpu_s([self.program, "render", self.scene, "--with", "reference", "--diffuse", "traced", "--depth", "8",
-                      "--diffuse-depth", self.depth, "--size", size, "--samples", str(samples), "--spp", str(spp),
-                      "--seed", str(seed), "-o", self.folder / name])
+        return Used([self.program, "render", self.scene, "--with", "reference", "--diffuse", "traced", "--depth", "8",
+                     "--diffuse-depth", self.depth, "--size", size, "--samples", str(samples), "--spp", str(spp),
+                     "--seed", str(seed), "-o", self.folder / name]).cpu_s
 
     def cycles(self, spp, size=None):
         size = size or f"{WIDTH}x{HEIGHT}"
-        return cpu_s(["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python", SCRIPTS / "cycles.py",
-                      "--", self.scene, "-o", self.folder / "cycles.exr", "--size", size, "--spp", str(spp), "--seed", "1",
-                      "--bounces", "8", "--diffuse-depth", self.depth])
+        return Used(["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python", SCRIPTS / "cycles.py",
+                     "--", self.scene, "-o", self.folder / "cycles.exr", "--size", size, "--spp", str(spp), "--seed", "1",
+                     "--bounces", "8", "--diffuse-depth", self.depth]).cpu_s
 
     def truth(self, seed):
         self.reference(64, 2, seed, scale=2)
@@ -120,8 +114,18 @@ class Race:
         return points
 
 
+def require_peer():
+    if not shutil.which("blender"):
+        raise Skip("Blender is not installed (Debian: apt-get install --no-install-recommends blender python3-numpy)")
+    try:
+        import numpy  # noqa: F401
+    except ImportError:
+        raise Skip("numpy is not installed (Debian: apt-get install python3-numpy)") from None
+
+
 def check(targets, program):
     """Prints how many times less processor time than Cycles the reference needs, at least 3 being the target."""
+    require_peer()
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         for name, builtin in SCENES.items():
