@@ -16,6 +16,7 @@ sys.path.insert(0, str(source / "scripts"))
 sys.dont_write_bytecode = True
 import cube_camera_targets  # noqa: E402
 import cycles_targets  # noqa: E402
+import ray_tracer_targets  # noqa: E402
 import sweep_targets  # noqa: E402
 from measure import Skip, Targets, geometric_mean, ratio_of_rounds  # noqa: E402
 
@@ -56,6 +57,14 @@ class Figures(unittest.TestCase):
         self.assertEqual(missed, 2)
         self.assertIn("wall 9 / 2 ms", lines[0])
 
+    def test_rays_of_povray_have_those_of_shadows(self):
+        text = "Pixels:     230400   Samples:   0\nRays:             276771   Saved:    0\nShadow Ray Tests:   100   Succeeded: 3\n"
+        self.assertEqual(ray_tracer_targets.rays_of_povray(text), 276871)
+        self.assertEqual(ray_tracer_targets.rays_of_povray(text.split("Shadow")[0]), 276771)
+
+    def test_a_sample_is_the_slope_between_two_numbers_of_samples(self):
+        self.assertAlmostEqual(ray_tracer_targets.slope(lambda spp: 5 + 0.25 * spp, 4, 20), 0.25)
+
     def test_every_row_of_the_growth_has_one_limit(self):
         rows = [line.split('"')[1] for line in (source / "scripts/growth").read_text().splitlines() if line.startswith('    ("')]
         table = "\n".join(["| cost |", "| --- |"] + [f"| {row} | 1 | 2 | 0.5 | 0.6 |" for row in rows])
@@ -68,7 +77,7 @@ class Programs(unittest.TestCase):
     def test_help_names_every_part(self):
         perf = source / "scripts/perf"
         usage = subprocess.run([sys.executable, perf, "--help"], check=True, capture_output=True, text=True).stdout
-        for name in ("start", "load", "metrics", "incremental", "intersect", "resume", "growth", "survey", "frames", "cycles"):
+        for name in ("start", "load", "metrics", "incremental", "intersect", "rays", "resume", "growth", "survey", "frames", "cycles"):
             self.assertRegex(usage, rf"\n  {name} +[\d.]+ min  ")
 
     def test_peers_that_are_missing_are_skipped_with_one_line(self):
