@@ -63,7 +63,7 @@ RasterDevice::Impl::Impl(GlBackend backend)
     : context(createContext(backend)),
       info(readInfo(context, backend)),
       limits(readLimits(context, info.software)),
-      programs(context.functions()) {
+      programs(context) {
   setInitialState(context.functions());
   context.check("setting up the context");
 }

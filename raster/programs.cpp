@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "raster/prefilter.h"
 #include "raster/shaders/back_faces.frag.h"
@@ -222,23 +224,41 @@ GLuint Programs::backFaces(const SurfaceVariant& variant) {
 
 GLuint Programs::find(const char* vertexShader, const char* fragmentShader, const std::string& name,
                       const std::string& defines, std::string_view fragmentCode) {
-  std::unique_ptr<gl::Program>& program = programs_[fmt::format("{}\n{}{}", name, defines, fragmentCode)];
-  if (program) return program->id();
+  Compiled& found = programs_[fmt::format("{}\n{}{}", name, defines, fragmentCode)];
+  found.asked = time_;
+  if (found.program) return found.program->id();
   const std::string fragment = withCode(withDefines(fragmentShader, defines), fragmentCode);
-  program = std::make_unique<gl::Program>(
+  found.program = std::make_unique<gl::Program>(
       gl_, std::vector<gl::ShaderSource>{
                {GL_VERTEX_SHADER, "raster/shaders/" + name + ".vert", withDefines(vertexShader, defines)},
                {GL_FRAGMENT_SHADER, "raster/shaders/" + name + ".frag", fragment}});
-  return program->id();
+  return found.program->id();
 }
 
 GLuint Programs::findCompute(const char* shader, const std::string& name, const std::string& defines) {
-  std::unique_ptr<gl::Program>& program = programs_[name + "\n" + defines];
-  if (!program)
-    program = std::make_unique<gl::Program>(
+  Compiled& found = programs_[name + "\n" + defines];
+  found.asked = time_;
+  if (!found.program)
+    found.program = std::make_unique<gl::Program>(
         gl_, std::vector<gl::ShaderSource>{
                  {GL_COMPUTE_SHADER, "raster/shaders/" + name + ".comp", withDefines(shader, defines)}});
-  return program->id();
+  return found.program->id();
+}
+
+Programs::Use::~Use() {
+  programs_.uses_.erase(start_);
+  programs_.freeIdle();
+}
+
+// Those that were asked for longest ago go first.
+void Programs::freeIdle() {
+  std::vector<std::map<std::string, Compiled>::iterator> idle;
+  for (auto compiled = programs_.begin(); compiled != programs_.end(); ++compiled)
+    if (isIdle(compiled->second)) idle.push_back(compiled);
+  if (idle.size() <= kMostIdlePrograms) return;
+  context_.makeCurrent();
+  std::ranges::stable_sort(idle, {}, [](const auto& compiled) { return compiled->second.asked; });
+  for (std::size_t i = 0; i + kMostIdlePrograms < idle.size(); ++i) programs_.erase(idle[i]);
 }
 
 }  // namespace pb

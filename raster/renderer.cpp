@@ -38,7 +38,10 @@ void checkSettings(const Technique& technique) {
 
 RasterSequence::Impl::Impl(RasterDevice::Impl& device_, const Technique& technique_, int widthPx, int heightPx,
                            int samplesPerAxis)
-    : device(device_), technique(device_.fault.techniqueOf(technique_)), layout(technique_) {
+    : device(device_),
+      programs(device_.programs),
+      technique(device_.fault.techniqueOf(technique_)),
+      layout(technique_) {
   checkSettings(technique);
   checkImageFits(device.limits, widthPx, heightPx, samplesPerAxis);
   device.context.makeCurrent();

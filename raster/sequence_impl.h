@@ -35,6 +35,7 @@ struct RasterSequence::Impl {
   void drawFinalImage(FrameWork& work);
 
   RasterDevice::Impl& device;
+  const Programs::Use programs;
   const Technique technique;
   std::optional<ScenePass> scenePass;
   std::optional<ProbeCaptures> captures;

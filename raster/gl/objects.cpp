@@ -77,6 +77,7 @@ GLuint link(const Functions& gl, const std::vector<ShaderSource>& sources) {
   gl.LinkProgram(program);
   GLint linked = GL_FALSE;
   gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+  for (const Shader& shader : shaders) gl.DetachShader(program, shader.id());  // else it lives as long as the program
   if (linked == GL_TRUE) return program;
   const std::string log = infoLog(program, gl.GetProgramiv, gl.GetProgramInfoLog);
   gl.DeleteProgram(program);

@@ -2,10 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "raster/lookup.h"
+#include "raster/texel_format.h"
 #include "scenes/error.h"
 #include "tests/unit/raster_fixture.h"
 
@@ -82,6 +85,27 @@ TEST_P(Device, EveryVariantOfEveryLookupCompiles) {
             variant.attributes = attributes;
             expectToCompile(impl.programs, variant, lookup, probes, levels);
           }
+}
+
+// A driver keeps megabytes of each program, and a suite asks for hundreds one after the other.
+TEST_P(Device, ProgramsStayWhileASequenceLivesAndOnlyTheLastOnesAfterIt) {
+  RasterDevice::Impl& impl = device().impl();
+  const auto program = [&](int samples) { return impl.programs.ggxLevel(samples, floatTexels().defines); };
+  std::vector<GLuint> ids;
+  {
+    const RasterSequence sequence(device(), withResolution(8), 16, 16, 1);
+    for (int samples = 1; samples <= static_cast<int>(kMostIdlePrograms) + 4; ++samples)
+      ids.push_back(program(samples));
+    {
+      const RasterSequence later(device(), withResolution(8), 16, 16, 1);
+      EXPECT_EQ(program(1), ids.front());
+    }
+    EXPECT_TRUE(std::ranges::all_of(ids, impl.context.functions().IsProgram));
+  }
+  EXPECT_EQ(impl.programs.size(), kMostIdlePrograms);
+  EXPECT_TRUE(impl.context.functions().IsProgram(ids.front())) << "it was asked for last";
+  EXPECT_EQ(std::ranges::count_if(ids, impl.context.functions().IsProgram),
+            static_cast<std::ptrdiff_t>(kMostIdlePrograms));
 }
 
 TEST_P(Device, ShaderErrorsBecomeOneException) {
