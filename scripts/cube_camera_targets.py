@@ -74,7 +74,7 @@ def show(targets, rounds):
             times = f"{statistics.median(theirs):.0f} / {statistics.median(ours):.0f} ms"
             what = f"frame N:B:R {cell}, {kind} {times}, times faster"
             targets.show(what, ratios[-1], FASTER_EACH, at_most=False)
-        what = f"frames, {kind}, times faster in the geometric mean"
+        what = f"frames, {kind}, {len(rounds)} cells, {len(pairs)} rounds, times faster, geometric mean"
         targets.show(what, geometric_mean(ratios), FASTER_IN_THE_MEAN, at_most=False)
 
 
