@@ -12,6 +12,7 @@ namespace pb {
 namespace {
 
 constexpr float kLargestHalf = 65504.0f;
+constexpr int kLevel = 6;  // 9 makes the pictures of `quick` 3 % smaller in seven times the time
 
 std::uint16_t halfOf(float value) {
   return value > 0 ? glm::packHalf1x16(std::min(value, kLargestHalf)) : std::uint16_t{0};
@@ -49,9 +50,8 @@ std::string packPicture(const std::vector<std::uint16_t>& planes, int width, con
 std::string deflate(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string packed(size, '\0');
-  const int outcome =
-      compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
+  const int outcome = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), kLevel);
   if (outcome != Z_OK) throwEnvironmentError("zlib can't deflate {} bytes, it says {}", bytes.size(), outcome);
   packed.resize(size);
   return packed;

@@ -1,8 +1,11 @@
 #include "bench/report/page_pictures.h"
 
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 
+#include <cstdint>
+#include <map>
 #include <set>
+#include <vector>
 
 #include "bench/report/packed_picture.h"
 #include "scenes/error.h"
@@ -38,21 +41,35 @@ std::vector<Job> jobsOf(const std::vector<CellResult>& cells) {
 
 Image readPicture(const std::string& path) { return rgbOf(readImage(path).pixels); }
 
-void pack(Job& job, const std::string& folder) try {
+// Half floats of the references, by file: of those that can be read.
+using References = std::map<std::string, std::vector<std::uint16_t>>;
+
+References readReferences(const std::vector<Job>& jobs, const std::string& folder) {
+  References references;
+  for (const Job& job : jobs)
+    if (job.base && !job.base->empty()) references.try_emplace(*job.base);
+  tbb::parallel_for_each(references, [&](auto& reference) {
+    try {
+      reference.second = halfPlanes(readPicture(folder + reference.first));
+    } catch (const Error&) {  // said where it is packed itself
+    }
+  });
+  return references;
+}
+
+void pack(Job& job, const References& references, const std::string& folder) try {
   if (!job.packed) {
     job.bytes = readFile(folder + job.file);
     return;
   }
   const Image image = readPicture(folder + job.file);
-  std::vector<std::uint16_t> base;
-  if (job.base && !job.base->empty()) base = halfPlanes(readPicture(folder + *job.base));
-  if (base.size() != 3 * image.size()) {
-    base.clear();
-    job.base.reset();
-  }
+  const auto reference = job.base ? references.find(*job.base) : references.end();
+  const bool isPredicted = reference != references.end() && reference->second.size() == 3 * image.size();
+  if (!isPredicted) job.base.reset();
   job.width = image.width();
   job.height = image.height();
-  job.bytes = packPicture(halfPlanes(image), image.width(), base);
+  const std::vector<std::uint16_t> none;
+  job.bytes = packPicture(halfPlanes(image), image.width(), isPredicted ? reference->second : none);
 } catch (const Error&) {  // a run whose folder was copied without its pictures still has its numbers
   job.bytes.reset();
 }
@@ -61,7 +78,9 @@ void pack(Job& job, const std::string& folder) try {
 
 PagePictures packPictures(const std::vector<CellResult>& cells, const std::string& runDirectory) {
   std::vector<Job> jobs = jobsOf(cells);
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) { pack(jobs[i], runDirectory + '/'); });
+  const std::string folder = runDirectory + '/';
+  const References references = readReferences(jobs, folder);
+  tbb::parallel_for_each(jobs, [&](Job& job) { pack(job, references, folder); });
 
   PagePictures pictures;
   std::map<std::string, std::size_t> blobOf;  // by content: a static probe and a fresh one may show the same
