@@ -41,7 +41,7 @@ std::vector<Job> jobsOf(const std::vector<CellResult>& cells) {
 
 Image readPicture(const std::string& path) { return rgbOf(readImage(path).pixels); }
 
-// Half floats of the references, by file: of those that can be read.
+// Half floats of the references, by file; none of those that can't be read.
 using References = std::map<std::string, std::vector<std::uint16_t>>;
 
 References readReferences(const std::vector<Job>& jobs, const std::string& folder) {
@@ -51,7 +51,7 @@ References readReferences(const std::vector<Job>& jobs, const std::string& folde
   tbb::parallel_for_each(references, [&](auto& reference) {
     try {
       reference.second = halfPlanes(readPicture(folder + reference.first));
-    } catch (const Error&) {  // said where it is packed itself
+    } catch (const Error&) {  // then what it belongs to is missing, too
     }
   });
   return references;
@@ -64,6 +64,7 @@ void pack(Job& job, const References& references, const std::string& folder) try
   }
   const Image image = readPicture(folder + job.file);
   const auto reference = job.base ? references.find(*job.base) : references.end();
+  if (reference != references.end() && reference->second.empty()) return;
   const bool isPredicted = reference != references.end() && reference->second.size() == 3 * image.size();
   if (!isPredicted) job.base.reset();
   job.width = image.width();
