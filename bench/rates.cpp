@@ -74,7 +74,8 @@ void Rates::save() const {
 
 std::string printWork(const PlanWork& work, const Rates& rates) {
   std::string text = fmt::format(
-      "at most {}, {} stored; {}, of which {} share another's captures, with {:.0f} captured faces; {} of frames for "
+      "distinct renders: at most {}, {} stored; {}, of which {} share another's captures, with {:.0f} captured faces; "
+      "{} of frames for "
       "cost\n",
       counted(work.references, "reference"), work.stored, counted(work.frames, "raster frame"), work.sharing,
       work.captures, counted(work.blocks, "block"));
