@@ -63,6 +63,7 @@ RasterDevice::Impl::Impl(GlBackend backend)
     : context(createContext(backend)),
       info(readInfo(context, backend)),
       limits(readLimits(context, info.software)),
+      dropsUnseenTriangles(info.software),
       programs(context) {
   setInitialState(context.functions());
   context.check("setting up the context");

@@ -22,6 +22,7 @@ struct RasterDevice::Impl {
   gl::Context context;
   GlInfo info;
   DeviceLimits limits;
+  bool dropsUnseenTriangles;  // raster/triangle_lists.h; false on GPUs
   Programs programs;
   std::shared_ptr<SceneResources> resources;
   PlantedFault fault;

@@ -30,19 +30,25 @@ Sides sidesOf(const SurfaceDraw& draw, const Snapshot& snapshot, const shading::
   return showsFrontOnly ? Sides::front : Sides::both;
 }
 
-void DrawBinder::draw(const SurfaceDraw& draw, GLuint program, Sides sides) {
+void DrawBinder::draw(const SurfaceDraw& draw, GLuint program, Sides sides, const IndexRange& range) {
   if (program != program_) gl_.UseProgram(program_ = program);
-  if (draw.mesh != mesh_) bindMesh(draw.mesh);
+  if (draw.mesh != mesh_ || range.buffer != indices_) bindMesh(draw.mesh, range.buffer);
   if (draw.material != material_) bindMaterial(draw.material);
   setSides(sides, frontFace(view_, frame_.snapshot.instances[draw.instance].mirrored));
   frame_.instances.bind(gpu::kInstanceBlock, draw.instance);
-  gl_.DrawElements(GL_TRIANGLES, draw.indexCount(reduction_.share), GL_UNSIGNED_INT, nullptr);
+  gl_.DrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(range.firstByte));
 }
 
-void DrawBinder::bindMesh(const GpuMesh* mesh) {
+void DrawBinder::bindMesh(const GpuMesh* mesh, GLuint indices) {
   mesh_ = mesh;
-  const bool isReduced = reduction_.share < 1.0f;
-  gl_.BindVertexArray(isReduced ? mesh->simplified.at(reduction_.share).vertexArray.id() : mesh->vertexArray.id());
+  indices_ = indices;
+  if (indices != 0) {
+    gl_.VertexArrayElementBuffer(mesh->listedVertices.id(), indices);
+    gl_.BindVertexArray(mesh->listedVertices.id());
+  } else {
+    const bool isReduced = reduction_.share < 1.0f;
+    gl_.BindVertexArray(isReduced ? mesh->simplified.at(reduction_.share).vertexArray.id() : mesh->vertexArray.id());
+  }
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kSmoothingGroupBlock, mesh->smoothingGroups.id());
 }
 

@@ -9,6 +9,13 @@ namespace pb {
 
 enum class Sides { both, front, back };
 
+// A part of a draw's triangles, which keep their order.
+struct IndexRange {
+  GLsizei count;
+  std::size_t firstByte = 0;
+  GLuint buffer = 0;  // 0: the mesh's own
+};
+
 // Closed glass is drawn without its back faces as long as they can't be seen.
 Sides sidesOf(const SurfaceDraw& draw, const Snapshot& snapshot, const shading::View& view);
 
@@ -31,10 +38,13 @@ class DrawBinder {
   void draw(const SurfaceDraw& draw, GLuint program) {
     this->draw(draw, program, sidesOf(draw, frame_.snapshot, view_));
   }
-  void draw(const SurfaceDraw& draw, GLuint program, Sides sides);
+  void draw(const SurfaceDraw& draw, GLuint program, Sides sides) {
+    this->draw(draw, program, sides, {.count = draw.indexCount(reduction_.share)});
+  }
+  void draw(const SurfaceDraw& draw, GLuint program, Sides sides, const IndexRange& range);
 
  private:
-  void bindMesh(const GpuMesh* mesh);
+  void bindMesh(const GpuMesh* mesh, GLuint indices);
   void bindMaterial(int material);
   void setSides(Sides sides, GLenum front);
 
@@ -44,6 +54,7 @@ class DrawBinder {
   const Reduction reduction_;
   GLuint program_ = 0;
   const GpuMesh* mesh_ = nullptr;
+  GLuint indices_ = 0;  // IndexRange::buffer
   int material_ = -1;
   GLenum front_ = GL_NONE;
   Sides sides_ = Sides::both;  // as the pass leaves it

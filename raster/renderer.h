@@ -35,10 +35,10 @@ struct GlInfo {
 struct FrameCounters {
   std::int64_t facesCaptured = 0;  // face renders, all bounce iterations, and mirrored views
   std::int64_t draws = 0;
-  std::int64_t triangles = 0;
-  std::int64_t fragments = 0;       // samples that passed the depth test; 0 unless counting was asked for
-  std::int64_t probeBytes = 0;      // memory of the cube maps, of their filtered levels and of the filter, of the
-                                    // distances that lookups read, and of mirrored views
+  std::int64_t triangles = 0;   // of what is drawn, those included that are dropped unseen (raster/triangle_lists.h)
+  std::int64_t fragments = 0;   // samples that passed the depth test; 0 unless counting was asked for
+  std::int64_t probeBytes = 0;  // memory of the cube maps, of their filtered levels and of the filter, of the
+                                // distances that lookups read, and of mirrored views
   std::int64_t texelsFiltered = 0;  // written by the filter of the cube maps, its own copies included
 
   FrameCounters& operator+=(const FrameCounters& other);  // probeBytes: the larger

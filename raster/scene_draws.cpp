@@ -15,6 +15,7 @@
 #include "raster/plain_material.h"
 #include "raster/refraction.h"
 #include "raster/shadow_maps.h"
+#include "raster/triangle_lists.h"
 #include "scenes/closed_mesh.h"
 
 namespace pb {
@@ -260,6 +261,7 @@ MeshNeeds SceneDraws::meshNeeds(const Snapshot& snapshot, const SnapshotInstance
   const std::vector<Instance>& instances = snapshot.scene->instances;
   return {.inwardDistances = hasBackFaces,
           .share = technique_.captureLod,
+          .planes = device_.dropsUnseenTriangles && isWorthCulling(*instance.mesh),
           .rest = instances[static_cast<std::size_t>(instance.source)].mesh.get()};
 }
 

@@ -28,7 +28,8 @@ ScenePass::ScenePass(RasterDevice::Impl& device, const Technique& technique)
       technique_(technique),
       draws_(device, technique_),
       constants_(device.context),
-      noVertices_(gl::makeVertexArray(gl_)) {}
+      noVertices_(gl::makeVertexArray(gl_)),
+      triangleLists_(gl_) {}
 
 void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::PassConstants>& passes,
                            const std::vector<int>& probeResolutions) {
@@ -49,6 +50,7 @@ void ScenePass::beginFrame(const Snapshot& snapshot, const std::vector<gpu::Pass
   beginShadows();
   constants_.uploadLights(castsShadows(snapshot) ? shadows_->lights() : snapshot.lights, snapshot.areaLights);
   constants_.uploadPasses(passes);
+  triangleLists_.beginFrame(passes);
   if (readsProbe(technique_)) constants_.uploadProbes(snapshot);
   resources_->bindScene();
   resources_->bindReflection(technique_);
@@ -192,12 +194,16 @@ void ScenePass::drawSurfaces(const Draws& draws, std::size_t pass, const ShownPr
   gl_.Disable(GL_CULL_FACE);
   if (clips) gl_.Enable(GL_CLIP_DISTANCE0);
   DrawBinder binder = binderFor(constants_.pass(pass).view, probes.isCapture());
+  const float share = probes.isCapture() ? technique_.captureLod : 1.0f;
   for (const SurfaceDraw* draw : draws) {
     const bool isCaptured = probes.isCapture() && snapshot_->instances[draw->instance].probe == probes.hidden;
+    const Sides sides = isCaptured ? Sides::back : sidesOf(*draw, *snapshot_, constants_.pass(pass).view);
+    const IndexRange range = triangleLists_.visible(pass, *draw, snapshot_->instances[draw->instance], share, sides);
+    if (range.count == 0) continue;
     GLuint program = bindReflection(*draw, probes);
     if (draw->shown.backFaces != 0) drawBackFaces(*draw, pass, probes.isCapture(), binder);
     if (records != nullptr) program = markDraw(*draw, program, probes, *records);
-    binder.draw(*draw, program, isCaptured ? Sides::back : sidesOf(*draw, *snapshot_, constants_.pass(pass).view));
+    binder.draw(*draw, program, sides, range);
   }
   if (clips) gl_.Disable(GL_CLIP_DISTANCE0);  // other programs have no such distance
   if (!technique_.seamless) gl_.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);

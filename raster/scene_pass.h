@@ -16,6 +16,7 @@
 #include "raster/scene_draws.h"
 #include "raster/shadow_maps.h"
 #include "raster/transparency.h"
+#include "raster/triangle_lists.h"
 
 namespace pb {
 
@@ -96,6 +97,7 @@ class ScenePass {
   std::optional<BackFaces> backFaces_;       // of scenes whose refraction reads them
   std::optional<TransparentLayers> layers_;  // of scenes with blended surfaces
   std::optional<ShadowMaps> shadows_;        // of scenes that cast shadows
+  TriangleLists triangleLists_;
 };
 
 }  // namespace pb

@@ -140,9 +140,9 @@ GpuMesh::GpuMesh(const gl::Functions& gl, std::shared_ptr<const Mesh> source_)
 }
 
 void GpuMesh::simplify(const gl::Functions& gl, const Mesh& rest, float share) {
-  const std::vector<std::uint32_t> triangles = simplifiedTriangles(rest, share);
-  GpuTriangles made{gl::makeVertexArray(gl), gl::Buffer(gl, gl::bytesOf(triangles)),
-                    static_cast<GLsizei>(triangles.size())};
+  std::vector<std::uint32_t> triangles = simplifiedTriangles(rest, share);
+  const auto count = static_cast<GLsizei>(triangles.size());
+  GpuTriangles made{gl::makeVertexArray(gl), gl::Buffer(gl, gl::bytesOf(triangles)), count, std::move(triangles)};
   describeVertices(gl, *this, made.vertexArray.id(), made.indices);
   if (inwardDistances.id() != 0) describeInwardDistances(gl, *this, made.vertexArray.id());
   simplified.emplace(share, std::move(made));
@@ -154,6 +154,15 @@ void GpuMesh::addInwardDistances(const gl::Functions& gl) {
   inwardDistances.write(0, gl::bytesOf(pb::inwardDistances(*source)));
   describeInwardDistances(gl, *this, vertexArray.id());
   for (const auto& [share, triangles] : simplified) describeInwardDistances(gl, *this, triangles.vertexArray.id());
+  if (listedVertices.id() != 0) describeInwardDistances(gl, *this, listedVertices.id());
+}
+
+void GpuMesh::addPlanes(const gl::Functions& gl, float share) {
+  if (!planes.contains(share)) planes.emplace(share, trianglePlanes(source->positions, corners(share)));
+  if (listedVertices.id() != 0) return;
+  listedVertices = gl::makeVertexArray(gl);
+  describeVertices(gl, *this, listedVertices.id(), indices);
+  if (inwardDistances.id() != 0) describeInwardDistances(gl, *this, listedVertices.id());
 }
 
 void GpuMesh::show(const std::shared_ptr<const Mesh>& shape) {
@@ -161,6 +170,7 @@ void GpuMesh::show(const std::shared_ptr<const Mesh>& shape) {
     indices.write(0, gl::bytesOf(shape->indices));
     simplified.clear();
   }
+  planes.clear();
   source = shape;
   radius = radiusOf(*source);
   vertices.write(0, gl::bytesOf(interleave(*source)));
@@ -200,6 +210,8 @@ const GpuMesh& SceneResources::mesh(std::size_t instance, const std::shared_ptr<
                             needs.rest->positions.size() == mesh->positions.size();
     gpuMesh.simplify(gl_, restsAlike ? *needs.rest : *mesh, needs.share);
   }
+  if (needs.planes) gpuMesh.addPlanes(gl_, 1.0f);
+  if (needs.planes && needs.share < 1.0f) gpuMesh.addPlanes(gl_, needs.share);
   return gpuMesh;
 }
 

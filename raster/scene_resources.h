@@ -6,12 +6,14 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "raster/gl/objects.h"
 #include "raster/gpu_structs.h"
 #include "raster/prefilter.h"
 #include "raster/programs.h"
+#include "raster/triangle_culling.h"
 #include "raster/uniform_slots.h"
 #include "scenes/scene.h"
 
@@ -22,6 +24,7 @@ struct GpuTriangles {
   gl::VertexArray vertexArray;
   gl::Buffer indices;
   GLsizei indexCount;
+  std::vector<std::uint32_t> corners;  // what `indices` has
 };
 
 struct GpuMesh {
@@ -36,11 +39,20 @@ struct GpuMesh {
   GLsizei indexCount;
   float radius;                              // metres in object space, around the middle of the mesh's bounds
   std::map<float, GpuTriangles> simplified;  // by share of the triangles, of the same vertices
+  std::map<float, TrianglePlanes> planes;    // by share, 1 for all; only after addPlanes()
+  gl::VertexArray listedVertices;            // the vertices for indices of another buffer, likewise
+
+  // The share's triangles.
+  std::span<const std::uint32_t> corners(float share) const {
+    return share < 1.0f ? simplified.at(share).corners : source->indices;
+  }
 
   // The vertex attribute of two-interface refraction (raster/inward_distance.h).
   void addInwardDistances(const gl::Functions& gl);
   // Adds simplifiedTriangles(). rest: a mesh of the same topology.
   void simplify(const gl::Functions& gl, const Mesh& rest, float share);
+  // What dropping triangles that can't be seen takes (raster/triangle_lists.h).
+  void addPlanes(const gl::Functions& gl, float share);
   // Takes another shape of the same topology.
   void show(const std::shared_ptr<const Mesh>& shape);
 };
@@ -49,6 +61,7 @@ struct GpuMesh {
 struct MeshNeeds {
   bool inwardDistances = false;
   float share = 1.0f;          // GpuMesh::simplified, if below 1
+  bool planes = false;         // GpuMesh::planes
   const Mesh* rest = nullptr;  // the instance's mesh before any deformation, which decides what is simplified
 };
 
