@@ -5,12 +5,11 @@
 namespace pb {
 namespace {
 
-// Lists hold fewer triangles than their meshes.
 constexpr std::size_t kMostIndices = kLargestListBytes / sizeof(std::uint32_t);
 constexpr std::size_t kFirstCapacity = std::size_t{1} << 18;
 
-// A triangle less saves llvmpipe 0.02 us or more, looking at one takes 0.006 us: in smaller meshes a list's own costs
-// count.
+// A triangle less saves llvmpipe 0.02 us or more, looking at one of so few takes 0.006 us: in smaller meshes a list's
+// own costs count.
 constexpr std::size_t kFewestTriangles = 64;
 
 ShownSides shown(Sides sides) {
@@ -30,6 +29,8 @@ bool isWorthCulling(const Mesh& mesh) {
 
 void TriangleLists::beginFrame(const std::vector<gpu::PassConstants>& passes) {
   passes_.clear();
+  wasRefusedBefore_ = wasRefused_;
+  wasRefused_ = wasCleared_ = false;
   for (const gpu::PassConstants& constants : passes) {
     Pass pass{.view = {.view = constants.view, .samples = glm::vec2(constants.image), .clip = constants.clip},
               .eye = passes_.size()};
@@ -51,6 +52,10 @@ IndexRange TriangleLists::visible(std::size_t pass, const SurfaceDraw& draw, con
   const Key key{seen.view, instance.worldFromObject, instance.mesh->contentHash, share, sides};
   const auto slot = (std::uint64_t{seen.eye} << 32) + draw.instance;
   if (const auto found = entries_.find(slot); found == entries_.end() || found->second.key != key) {
+    if (found == entries_.end() && isFull()) {
+      wasRefused_ = true;
+      return all;
+    }
     Entry entry = found == entries_.end() ? Entry{} : found->second;
     find(key, draw, instance, seen.face >= 0, entry);
     if (!store(entry)) return all;
@@ -86,12 +91,17 @@ bool TriangleLists::store(Entry& entry) {
 }
 
 // A quarter more than asked for, so that what moves seldom needs another place. When the buffer is full, all lists are
-// made anew.
+// made anew; if a frame fills it twice, what has no list yet is drawn whole until a frame gets along without.
 bool TriangleLists::reserve(std::size_t count, Entry& entry) {
   if (count > kMostIndices) return false;
   const std::size_t wanted = std::min(count + count / 4, kMostIndices);
   if (used_ + wanted > capacity_) {
     const std::size_t larger = std::min(std::max({2 * capacity_, kFirstCapacity, wanted}), kMostIndices);
+    if (larger == capacity_ && (wasCleared_ || isFull())) {
+      wasRefused_ = true;
+      return false;
+    }
+    wasCleared_ = larger == capacity_;
     if (larger > capacity_) buffer_ = gl::Buffer(gl_, larger * sizeof(std::uint32_t));
     capacity_ = larger;
     entries_.clear();

@@ -55,13 +55,16 @@ class TriangleLists {
   void find(const Key& key, const SurfaceDraw& draw, const SnapshotInstance& instance, bool isCube, Entry& entry);
   bool store(Entry& entry);
   bool reserve(std::size_t count, Entry& entry);
+  bool isFull() const { return wasRefused_ || wasRefusedBefore_; }
 
   const gl::Functions& gl_;
   TriangleCuller culler_;
   std::vector<Pass> passes_;
   std::unordered_map<std::uint64_t, Entry> entries_;  // by eye and instance
   gl::Buffer buffer_;
-  std::size_t capacity_ = 0, used_ = 0;  // indices
+  std::size_t capacity_ = 0, used_ = 0;           // indices
+  bool wasCleared_ = false, wasRefused_ = false;  // in this frame: all lists, a place for one
+  bool wasRefusedBefore_ = false;                 // in the frame before
 };
 
 }  // namespace pb

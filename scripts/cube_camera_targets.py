@@ -15,7 +15,7 @@ from measure import SCRIPTS, Skip, geometric_mean, ratio_of_rounds, run_benchmar
 GRID = [f"{n}:{b}:{r}" for n in (1, 3, 5, 8) for b in (1, 2, 3) for r in (64, 128, 256, 512)]
 FASTER_EACH, FASTER_IN_THE_MEAN = 2, 4
 SKIPPED = 77  # exit code
-FRAMES, MS = 3, 300  # of a cell in a round, at least
+FRAMES, MS = 3, 600  # of a cell in a round, at least
 
 
 class Peer:
@@ -24,8 +24,9 @@ class Peer:
     def __init__(self, program, folder):
         self.program, self.folder = program, pathlib.Path(folder)
         command = [SCRIPTS.parent / "bench/external/three-cubecamera/frames", str(FRAMES), str(MS)]
+        self.complaints = (self.folder / "complaints.txt").open("w+")  # a pipe would fill up
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
+                                        stderr=self.complaints, text=True)
 
     def scene(self, mirrors):
         file = self.folder / f"mirrors{mirrors}.glb"
@@ -45,8 +46,10 @@ class Peer:
         except BrokenPipeError:
             answer = ""
         if not answer:
-            reason = self.process.stderr.read().strip().splitlines() or ["it ended without a word"]
-            if self.process.wait() == SKIPPED:
+            exit_code = self.process.wait()
+            self.complaints.seek(0)
+            reason = self.complaints.read().strip().splitlines() or ["it ended without a word"]
+            if exit_code == SKIPPED:
                 raise Skip(reason[-1])
             raise RuntimeError(f"three.js: {reason[-1]}")
         result = json.loads(answer)
@@ -56,6 +59,7 @@ class Peer:
         with contextlib.suppress(BrokenPipeError):
             self.process.stdin.close()
         self.process.wait()
+        self.complaints.close()
 
 
 def our_frame_ms(folder, cell):

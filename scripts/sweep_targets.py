@@ -23,20 +23,21 @@ def check_resume(targets, program):
 
 def check_survey(targets, program):
     with tempfile.TemporaryDirectory() as folder:
-        used = Used([program, "run", "survey", "--no-cost", "--out", folder + "/run"])
+        used = Used([program, "run", "survey", "--no-cost", "--out", folder + "/run", "--store", folder + "/store"])
         targets.show("`run survey --no-cost`, most memory, GiB", used.peak_mib / 1024, 2)
 
 
 def exponents(table):
-    """Title and exponent of each row of scripts/growth's table."""
+    """Title, exponent and that of the last step, where constant parts count least, of each row of scripts/growth's table."""
     rows = [[field.strip() for field in line.split("|")[1:-1]] for line in table.splitlines() if line.startswith("|")]
-    return [(row[0], float(row[3])) for row in rows[2:]]
+    return [(row[0], float(row[3]), float(row[4])) for row in rows[2:]]
 
 
 def check_growth(targets, folder):
     with tempfile.TemporaryDirectory() as plots:
         command = [SCRIPTS / "growth", "--program", folder, "--plot", pathlib.Path(plots) / "growth.svg"]
         table = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    for title, exponent in exponents(table):
+    for title, exponent, last in exponents(table):
         (limit,) = [l for beginning, l in LARGEST_EXPONENTS.items() if title.startswith(beginning)]
         targets.show(f"{title}, exponent", exponent, limit)
+        targets.show("  of the last step", last, limit)

@@ -102,7 +102,7 @@ void addSelftestGateCommand(CLI::App& app, const GlobalOptions& globals, Action&
   command->add_option("--fault", options->faults, "plant this fault alone; may be given again")
       ->check(CLI::IsMember(faultNames()))
       ->allow_extra_args(false);
-  command->add_flag("--no-faults", options->noFaults, "the unchanged runs only");
+  command->add_flag("--no-faults", options->noFaults, "the unchanged runs only")->excludes("--fault");
   command->callback(
       [&action, &globals, options] { action = [&globals, options] { return runSelftest(*options, globals); }; });
 }

@@ -68,7 +68,7 @@ class Figures(unittest.TestCase):
     def test_every_row_of_the_growth_has_one_limit(self):
         rows = [line.split('"')[1] for line in (source / "scripts/growth").read_text().splitlines() if line.startswith('    ("')]
         table = "\n".join(["| cost |", "| --- |"] + [f"| {row} | 1 | 2 | 0.5 | 0.6 |" for row in rows])
-        self.assertEqual(sweep_targets.exponents(table), [(row, 0.5) for row in rows])
+        self.assertEqual(sweep_targets.exponents(table), [(row, 0.5, 0.6) for row in rows])
         for row in rows:
             self.assertEqual(sum(row.startswith(beginning) for beginning in sweep_targets.LARGEST_EXPONENTS), 1, row)
 

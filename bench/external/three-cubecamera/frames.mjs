@@ -13,24 +13,46 @@ function parentOf(pid) {
   return Number(stat.slice(stat.lastIndexOf(')') + 2).split(' ')[1]);
 }
 
-// Milliseconds that all threads of all processes below this one have run.
-function cpuMsOfChildren() {
+// Milliseconds that each thread of all processes below this one has run.
+function threadsOfChildren() {
   const tree = new Map([[process.pid, true]]);
   const isBelow = (pid) => {
     if (!tree.has(pid)) tree.set(pid, pid > 1 && isBelow(parentOf(pid)));
     return tree.get(pid);
   };
-  let ms = 0;
+  const msOf = new Map();
   for (const name of readdirSync('/proc')) {
-    try {
-      if (!/^\d+$/.test(name) || Number(name) === process.pid || !isBelow(Number(name))) continue;
-      for (const thread of readdirSync(`/proc/${name}/task`))
-        ms += Number(readFileSync(`/proc/${name}/task/${thread}/schedstat`, 'latin1').split(' ')[0]) / 1e6;
-    } catch {
-      // It ended meanwhile.
+    if (!/^\d+$/.test(name) || Number(name) === process.pid) continue;
+    for (const thread of unlessEnded(() => (isBelow(Number(name)) ? readdirSync(`/proc/${name}/task`) : []), [])) {
+      const stat = unlessEnded(() => readFileSync(`/proc/${name}/task/${thread}/schedstat`, 'latin1'), '');
+      if (stat) msOf.set(thread, Number(stat.split(' ')[0]) / 1e6);
     }
   }
+  return msOf;
+}
+
+function unlessEnded(read, otherwise) {
+  try {
+    return read();
+  } catch {
+    return otherwise;
+  }
+}
+
+// What threads have run since then; those that ended count nothing.
+function cpuMsSince(before) {
+  let ms = 0;
+  for (const [thread, now] of threadsOfChildren()) ms += now - (before.get(thread) ?? 0);
   return ms;
+}
+
+// Until the browser has nothing left to do for the page that it opened, for 5 s at most.
+async function untilQuiet() {
+  for (let i = 0; i < 25; ++i) {
+    const before = threadsOfChildren();
+    await new Promise((resolve) => setTimeout(resolve, 200));
+    if (cpuMsSince(before) < 10) return;
+  }
 }
 
 const medianOf = (values) => {
@@ -43,9 +65,10 @@ async function measureCell(browser, bounces, resolution, frames, ms, picture) {
   const about = await page.evaluate((r) => window.technique.load(r), resolution);
   browser.requireRenderer(about.renderer);
   await page.evaluate((a) => window.technique.measure(...a), [bounces, kWarmUpFrames, 0]);
-  const before = cpuMsOfChildren();
+  await untilQuiet();
+  const before = threadsOfChildren();
   const got = await page.evaluate((a) => window.technique.measure(...a), [bounces, frames, ms]);
-  const cpuMs = (cpuMsOfChildren() - before) / got.frameMs.length;
+  const cpuMs = cpuMsSince(before) / got.frameMs.length;
   if (picture) await page.locator('canvas').screenshot({ path: picture });
   await page.close();
   return {
