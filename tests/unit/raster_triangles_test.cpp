@@ -19,8 +19,10 @@ class RasterTriangles : public RasterTest {
     device().impl().dropsUnseenTriangles = dropsUnseen;
     RasterSequence sequence(device(), technique, 96, 54, 1);
     std::vector<Frame> frames;
+    const auto shared =
+        std::make_shared<const Scene>(makeBuiltinScene(parseSpec(scene)));  // what is kept is used again
     for (int i = 0; i < 3; ++i) {
-      const auto snapshot = snapshotOf(scene, i);
+      const auto snapshot = makeSnapshot(shared, i, "", 96.0 / 54.0);
       const FrameCounters counters = sequence.renderFrame(*snapshot, true).counters;
       frames.push_back({sequence.readImage(), sequence.readProbe(0), counters});
     }

@@ -193,8 +193,7 @@ TEST(TriangleCulling, KeepsSliversThatSnappingTurnsRound) {
   EXPECT_GT(expectAllListed(object, view, ShownSides::front, culler, 0), 100);
 }
 
-// 64 of 128 triangles a ring seen from afar face away; of those 1 - 0.8/4 = 0.8 of the hemisphere more or less are seen
-// from a distance of 5 radii, and margins keep a few per cent.
+// From 5 radii away (1 - 1/5) / 2 = 0.4 of a sphere's area is seen; margins keep a few per cent more.
 TEST(TriangleCulling, DropsMoreThanHalfOfASphere) {
   const Object object(makeSphereMesh(0.8f, 64, 32), glm::translate(glm::mat4(1.0f), vec3(4, 0, 0)));
   TriangleCuller culler;
