@@ -113,10 +113,10 @@ void BounceIterations::drawProbe(const std::vector<ProbeFace>& faces, Run& run) 
     const RenderTarget target = isRecorded ? maps_.recordingTarget(f, records_->mirrors(f.probe)) : maps_.target(f);
     scenePass_.draw(capturePass(f), target, shownProbes(f.probe, run), run.work.counters,
                     capturedPart(technique_, f.face), isRecorded ? &*records_ : nullptr);
-    if (isRecorded) records_->endCapture(f, lookups[i], maps_.captured(f.probe));
-    if (history_) history_->blend(f, target, maps_.captured(f.probe), run.isLast);
+    if (isRecorded) records_->endCapture(f, lookups[i], maps_.drawn(f.probe));
+    if (history_) history_->blend(f, target, maps_.drawn(f.probe), run.isLast);
   }
-  if (records_) records_->endProbe(faces.front().probe, maps_.captured(faces.front().probe));
+  if (records_) records_->endProbe(faces.front().probe, maps_.drawn(faces.front().probe));
 }
 
 // Decides what later iterations redo of the faces of one probe, which are about to be drawn. Their lookups are recorded

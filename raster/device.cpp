@@ -64,6 +64,7 @@ RasterDevice::Impl::Impl(GlBackend backend)
       info(readInfo(context, backend)),
       limits(readLimits(context, info.software)),
       dropsUnseenTriangles(info.software),
+      capturesApart(info.software),
       programs(context) {
   setInitialState(context.functions());
   context.check("setting up the context");

@@ -23,6 +23,7 @@ struct RasterDevice::Impl {
   GlInfo info;
   DeviceLimits limits;
   bool dropsUnseenTriangles;  // raster/triangle_lists.h; false on GPUs
+  bool capturesApart;         // small maps, see ProbeMaps; likewise
   Programs programs;
   std::shared_ptr<SceneResources> resources;
   PlantedFault fault;

@@ -91,6 +91,7 @@ void ProbeCaptures::allocate() {
                                     .largest = technique_.resolution,
                                     .views = viewsOfProbe(technique_),
                                     .doubleBuffered = technique_.bounceOrder == BounceOrder::simultaneous,
+                                    .capturesApart = device_.capturesApart,
                                     .filter = levels,
                                     .keepsDistances = needsDistances(technique_),
                                     .format = technique_.format,

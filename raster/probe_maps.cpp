@@ -7,6 +7,14 @@
 #include "raster/probe_owners.h"
 
 namespace pb {
+namespace {
+
+// llvmpipe 22 waits for all that is drawn whenever a texture is bound that one of its last scenes drew to: once a face,
+// as maps are drawn to and looked up in turn. Drawn apart they are waited for once a probe, by the copy. Larger faces
+// have enough tiles for all threads: frames with maps of 256 texels take as long either way (docs/performance.md).
+constexpr int kLargestApart = 128;
+
+}  // namespace
 
 ProbeMaps::ProbeMaps(gl::Context& context, Programs& programs, const Settings& settings)
     : context_(context),
@@ -29,16 +37,29 @@ ProbeMaps::Tools& ProbeMaps::toolsFor(int resolution) {
   if (!isNew) return tools;
   tools.levels = filteredLevels(settings_.filter, resolution);
   if (tools.levels > 0) tools.filter.emplace(context_, programs_, settings_.filter, format_, resolution);
+  if (drawsApart(resolution))
+    tools.apart = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
+                                        .format = format_.captured,
+                                        .width = resolution,
+                                        .height = resolution,
+                                        .layers = settings_.views});
   if (isConverted(settings_.format, settings_.storage))
     tools.conversion.emplace(context_, programs_, settings_.format, settings_.storage, resolution, settings_.seamless);
   return tools;
+}
+
+// Maps with a back are drawn to what no lookup reads anyway. Distances are in depth buffers of their own, and a single
+// view is waited for once.
+bool ProbeMaps::drawsApart(int resolution) const {
+  return settings_.capturesApart && !hasBacks() && !settings_.keepsDistances && settings_.views == 6 &&
+         resolution <= kLargestApart;
 }
 
 ProbeMaps::Map ProbeMaps::makeMap(int resolution) {
   Map map;
   map.resolution = resolution;
   addShown(map, toolsFor(resolution).levels);
-  if (settings_.doubleBuffered || isConverted(settings_.format, settings_.storage)) {
+  if (hasBacks()) {
     map.back = gl::makeTexture(gl_, {.target = GL_TEXTURE_2D_ARRAY,
                                      .format = format_.captured,
                                      .width = resolution,
@@ -87,8 +108,28 @@ void ProbeMaps::bind(int probe, int unit, int depthUnit) const {
   if (settings_.keepsDistances) gl_.BindTextureUnit(static_cast<GLuint>(depthUnit), mapOf(probe).shownDepths.id());
 }
 
+const gl::Texture& ProbeMaps::drawn(int probe) const {
+  const gl::Texture& apart = tools_.at(mapOf(probe).resolution).apart;
+  return apart.id() != 0 ? apart : captured(probe);
+}
+
+// Captures of another probe take the place of those drawn before.
+void ProbeMaps::beginFace(const ProbeFace& face) {
+  if (face.probe != drawnProbe_) copyDrawn();
+  drawnProbe_ = face.probe;
+  if (&drawn(face.probe) != &captured(face.probe)) drawnFaces_ |= 1u << face.face;
+}
+
+void ProbeMaps::copyDrawn() {
+  for (int face = 0; face < 6; ++face)
+    if ((drawnFaces_ >> face & 1u) != 0)
+      copyFace(drawn(drawnProbe_), captured(drawnProbe_), face, mapOf(drawnProbe_).resolution);
+  drawnFaces_ = 0;
+}
+
 RenderTarget ProbeMaps::target(const ProbeFace& face) {
-  gl::setColorLayer(framebuffer_, mapOf(face.probe).captured(), face.face);
+  beginFace(face);
+  gl::setColorLayer(framebuffer_, drawn(face.probe), face.face);
   if (settings_.keepsDistances) gl::setDepthLayer(framebuffer_, mapOf(face.probe).capturedDepths(), face.face);
   return {framebuffer_.id(), mapOf(face.probe).resolution, mapOf(face.probe).resolution};
 }
@@ -106,7 +147,8 @@ void ProbeMaps::setFurtherColors(std::span<const gl::Texture* const> colors) {
 }
 
 RenderTarget ProbeMaps::recordingTarget(const ProbeFace& face, const gl::Texture* lastColor) {
-  gl::setColorLayer(recordingFramebuffer_, mapOf(face.probe).captured(), face.face);
+  beginFace(face);
+  gl::setColorLayer(recordingFramebuffer_, drawn(face.probe), face.face);
   const GLenum attachment = GL_COLOR_ATTACHMENT0 + furtherColors_ + 1;
   gl_.NamedFramebufferTextureLayer(recordingFramebuffer_.id(), attachment, lastColor == nullptr ? 0 : lastColor->id(),
                                    0, lastColor == nullptr ? 0 : face.face);
@@ -179,6 +221,7 @@ std::array<Plane, 6> ProbeMaps::readDistances(int probe, float zNear) const {
 }
 
 std::int64_t ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
+  copyDrawn();
   std::vector<FaceSet> changed(maps_.size(), 0);
   for (const ProbeFace& face : captured) changed[static_cast<std::size_t>(face.probe)] |= 1u << face.face;
   std::int64_t converted = 0;
@@ -199,12 +242,13 @@ std::int64_t ProbeMaps::publish(const std::vector<ProbeFace>& captured) {
 
 // What is not converted.
 void ProbeMaps::copyToShown(const Map& map, int face) const {
-  const auto copy = [&](const gl::Texture& from, const gl::Texture& to) {
-    gl_.CopyImageSubData(from.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face, to.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face,
-                         map.resolution, map.resolution, 1);
-  };
-  if (!isConverted(settings_.format, settings_.storage)) copy(map.back, map.shownLayers);
-  if (settings_.keepsDistances) copy(map.backDepths, map.shownDepthLayers);
+  if (!isConverted(settings_.format, settings_.storage)) copyFace(map.back, map.shownLayers, face, map.resolution);
+  if (settings_.keepsDistances) copyFace(map.backDepths, map.shownDepthLayers, face, map.resolution);
+}
+
+void ProbeMaps::copyFace(const gl::Texture& from, const gl::Texture& to, int face, int resolution) const {
+  gl_.CopyImageSubData(from.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face, to.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, face,
+                       resolution, resolution, 1);
 }
 
 bool ProbeMaps::isStale(const std::vector<bool>& wanted) const {

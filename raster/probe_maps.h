@@ -25,6 +25,7 @@ class ProbeMaps {
     int largest;                             // that any will have
     int views = 6;                           // 1 for maps that are one picture instead of a cube
     bool doubleBuffered = false;             // what is shown is kept apart from what is captured until publish()
+    bool capturesApart = false;              // small cubes are drawn to others that all share, and copied
     ProbeFilter filter = ProbeFilter::none;  // none if nothing looks up other levels than level 0
     bool keepsDistances = false;             // for lookups that read them
     ProbeFormat format = ProbeFormat::rgba16f;
@@ -50,7 +51,9 @@ class ProbeMaps {
   // of one more if that isn't nullptr. Not for kept distances.
   RenderTarget recordingTarget(const ProbeFace& face, const gl::Texture* lastColor);
   void setFurtherColors(std::span<const gl::Texture* const> colors);
-  // The layers whose captures publish() makes visible.
+  // The layers that both draw to until publish().
+  const gl::Texture& drawn(int probe) const;
+  // The layers of a published probe whose changes the next publish() makes visible.
   const gl::Texture& captured(int probe) const { return mapOf(probe).captured(); }
 
   // Shows that instead of a capture. faces: GL order, row 0 first in memory, of the probe's resolution; what the format
@@ -97,6 +100,9 @@ class ProbeMaps {
     int levels;  // above level 0
     std::optional<CubeFilter> filter;
     std::optional<MapConversion> conversion;
+    // Six faces that captures are drawn to, one probe's at a time, if that is apart from its map. Like the depth buffer
+    // that they share, no part of probeBytes(), which counts what techniques want, not what drivers do.
+    gl::Texture apart;
   };
 
   Map makeMap(int resolution);
@@ -104,10 +110,15 @@ class ProbeMaps {
   void addShown(Map& map, int levels) const;
   void addDepths(Map& map) const;
   void bind(int probe, int unit, int depthUnit) const;
+  bool hasBacks() const { return settings_.doubleBuffered || isConverted(settings_.format, settings_.storage); }
+  bool drawsApart(int resolution) const;
+  void beginFace(const ProbeFace& face);
+  void copyDrawn();
   Map& mapOf(int probe) { return maps_[static_cast<std::size_t>(probe)]; }
   const Map& mapOf(int probe) const { return maps_[static_cast<std::size_t>(probe)]; }
 
   void copyToShown(const Map& map, int face) const;
+  void copyFace(const gl::Texture& from, const gl::Texture& to, int face, int resolution) const;
   void writeRadiances(const Map& map, int face, Image radiances) const;
   void writeDistances(const Map& map, int face, Plane distances, float zNear) const;
 
@@ -118,6 +129,8 @@ class ProbeMaps {
   const TexelFormat format_;
   std::map<int, Tools> tools_;  // by resolution
   std::vector<Map> maps_;
+  int drawnProbe_ = 0;      // whose captures are drawn apart
+  FaceSet drawnFaces_ = 0;  // its faces that are, and not yet copied
   gl::Texture depth_;
   gl::Framebuffer framebuffer_;
   gl::Framebuffer recordingFramebuffer_;
