@@ -24,10 +24,13 @@ export function answerSection(answer) {
   );
 }
 
+// Of several with the smallest error the cheapest, as in the tables of report.md.
 export function bestOf(view, question) {
   const sign = isMoreBetter(question.metric) ? -1 : 1;
   const loss = (sequence) => sign * meanError(sequence, question);
-  return view.sequences.reduce((best, s) => (loss(s) < loss(best) || Number.isNaN(loss(best)) ? s : best));
+  const cost = (sequence) => COSTS[0].of(sequence.cells[0]) ?? Infinity;
+  const isBetter = (a, b) => loss(a) < loss(b) || (loss(a) === loss(b) && cost(a) < cost(b)) || Number.isNaN(loss(b));
+  return view.sequences.reduce((best, s) => (isBetter(s, best) ? s : best));
 }
 
 // One row a view: where to start reading.
