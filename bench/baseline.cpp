@@ -128,6 +128,7 @@ Baseline readReplaced(const std::string& path) {
   try {
     return readBaseline(path);
   } catch (const Error& error) {
+    if (!std::filesystem::is_regular_file(path)) throw;
     throw Error(error.kind(), fmt::format("{}; --force replaces it", error.what()));
   }
 }

@@ -21,7 +21,10 @@ struct CostPlace {
 std::vector<CellResult> remeasureCosts(const CostPlace& place, const std::vector<std::string>& sequences,
                                        const AxisValues& defaults, Progress& progress);
 
-// The same from a suite's file or name, for a run of it. An input Error if the run is of another suite or of scenes
+// An input Error if the run is of another suite than the one of this file or name.
+void requireRunOf(const Results& run, const std::string& suite);
+
+// The costs from a suite's file or name, for a run of it. An input Error if the run is of another suite or of scenes
 // that have changed since.
 Results remeasureRun(const Results& run, const std::string& suite, const std::vector<std::string>& sequences,
                      GlBackend backend, int threads);

@@ -28,6 +28,7 @@ GateReport checkAgain(const GateOptions& options, const Results& run, const Base
     const Results rerun = readResults(options.confirm);
     return check(run, baseline, defaults, &rerun);
   }
+  if (!options.rerun.empty()) requireRunOf(run, options.rerun);  // also where no cost turns out to have changed
   const GateReport first = check(run, baseline, defaults);
   const std::vector<std::string> changed = first.unconfirmedCosts();
   if (options.rerun.empty() || changed.empty()) return first;

@@ -147,6 +147,8 @@ TEST(Check, RerunWantsTheSuiteOfTheRun) {
   for (CellResult& cell : run.cells) cell.cost = samples::makeCost(6);
   workplace.write("run", run);
   expectOneSentence(workplace.check({"--rerun", "gate"}), "the run is not one of suite 'gate'");
+  workplace.write("run", samples::makeResults());  // in which no cost changed
+  expectOneSentence(workplace.check({"--rerun", "gate"}), "the run is not one of suite 'gate'");
 }
 
 TEST(Check, PrintsAnnotationsForGitHub) {
