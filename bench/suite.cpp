@@ -125,6 +125,16 @@ std::string shippedPath(const std::string& name) {
   return (shippedFolder() / (name + ".toml")).string();
 }
 
+// A run goes to out/NAME.
+std::string readName(TomlReader& suite) {
+  const toml::node& node = suite.require("name");
+  const std::string name = suite.text("name").value();
+  if (name.empty() || name.starts_with('.') || name.find('/') != std::string::npos)
+    throwInputError("{}: 'name' is a folder's: it is not empty, has no '/' and doesn't begin with a point, got '{}'",
+                    placeOf(suite.file(), node), name);
+  return name;
+}
+
 std::string framesText(const SuiteScene& scene) {
   std::string text = fmt::format("from {}:", scene.startFrame());
   for (const int frame : scene.frames) text += fmt::format(" {}", frame);
@@ -140,9 +150,8 @@ Suite parseSuite(const std::string& toml, const std::string& place, const std::s
   if (reader.integer("schema", 1, std::numeric_limits<int>::max()) != kSuiteSchemaVersion)
     throwInputError("{}: 'schema' wants {}, the only version there is", placeOf(place, reader.require("schema")),
                     kSuiteSchemaVersion);
-  reader.require("name");
   Suite suite;
-  suite.name = reader.text("name").value();
+  suite.name = readName(reader);
   suite.image = readImage(reader);
   suite.pictures = readPictures(reader);
   suite.reference = readReference(reader);

@@ -13,7 +13,8 @@ GridAxis readGridAxis(const std::string& name, const toml::node& node, const std
   GridAxis axis{name, {}};
   std::vector<std::string>& values = axis.second;
   const auto add = [&](const toml::node& value) {
-    atPlace(file, value, [&] { appendAxisValues(name, scalarText(value, name, file), values); });
+    const std::string text = scalarText(value, name, file);
+    atPlace(file, value, [&] { appendAxisValues(name, text, values); });
     if (std::ranges::count(values, values.back()) > 1)
       throwInputError("{}: axis '{}' has the value {} twice", placeOf(file, value), name, values.back());
   };
@@ -39,10 +40,11 @@ std::vector<std::pair<std::string, std::string>> readSettings(TomlReader& owner,
   std::optional<TomlReader> reader = owner.child(key);
   if (!reader) return settings;
   for (const Axis& axis : axisTable())
-    if (const toml::node* node = reader->find(axis.name))
-      settings.emplace_back(axis.name, atPlace(owner.file(), *node, [&] {
-                              return canonicalAxisValue(axis.name, scalarText(*node, axis.name, owner.file()));
-                            }));
+    if (const toml::node* node = reader->find(axis.name)) {
+      const std::string text = scalarText(*node, axis.name, owner.file());
+      settings.emplace_back(axis.name,
+                            atPlace(owner.file(), *node, [&] { return canonicalAxisValue(axis.name, text); }));
+    }
   reader->finish();
   return settings;
 }

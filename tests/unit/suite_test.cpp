@@ -117,6 +117,14 @@ TEST(Suite, EnvironmentFile_IsRelativeToTheSuiteLikeTheScene) {
   EXPECT_EQ(suite.scenes[0].name, "a.glb?environment=x.exr");
 }
 
+// Runs go to out/NAME, which must not lie elsewhere.
+TEST(Suite, WithANameThatIsNoFolder_IsRefused) {
+  for (const char* name : {"", "../s", "a/b", "..", ".s"})
+    EXPECT_THAT(messageOf([&] { parse(std::string("schema = 1\nname = \"") + name + "\"\n" + kScene); }),
+                testing::StartsWith("suites/s.toml:2: 'name' is a folder's"))
+        << name;
+}
+
 TEST(Suite, Variations_AreOneTableOrSeveralWithSettingsOfTheirOwn) {
   const std::string scene = std::string(kHead) + kScene;
   const Suite one = parse(scene + "[scene.vary]\nbounces = [2, 3]\nresolution = [64]\n");
@@ -183,6 +191,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuite{"cost = { repetitions = 1e9 }\n",
                  "suites/s.toml:3: 'repetitions' wants an integer from 0 to 1000, got 1000000000"},
         BadSuite{"technique = { bounces = 0 }\n", "suites/s.toml:3: axis 'bounces' wants integers from 1 to 16, got 0"},
+        BadSuite{"technique = { bounces = [1] }\n", "suites/s.toml:3: 'bounces' wants a string or a number"},
         BadSuite{"", "suites/s.toml:1: the suite needs a key 'scene'"},
         BadSuite{"scene = []", "suites/s.toml:3: the suite needs at least one [[scene]]"},
         BadSuite{"[[scene]]\nframes = 1", "suites/s.toml:3: a [[scene]] needs a key 'use'"},
