@@ -59,6 +59,8 @@ std::pair<std::string, std::vector<std::string>> parseAxisValues(std::string_vie
   for (std::size_t begin = equals + 1; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     appendAxisValues(result.first, text.substr(begin, end - begin), result.second);
+    if (std::ranges::count(result.second, result.second.back()) > 1)
+      throwInputError("--set names value '{}' of axis '{}' twice", result.second.back(), result.first);
     begin = end + 1;
   }
   return result;

@@ -25,7 +25,8 @@ int fail(const std::string& sentence, pb::Failure kind) {
 int perform(const pb::Action& action) {
   try {
     const int exitCode = action();
-    if (std::fflush(stdout) != 0) pb::throwEnvironmentError("standard output can't be written");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      pb::throwEnvironmentError("standard output can't be written");
     return exitCode;
   } catch (const pb::Error& error) {
     return fail(error.what(), error.kind());
@@ -47,6 +48,16 @@ std::string sentenceOf(const CLI::App& app) {
   return "command " + pb::unknownMessage(words.front(), commands);
 }
 
+// Where the options of the command in question stand.
+std::string helpHint(const CLI::App& app) {
+  std::string command = "probebench";
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    command += " " + at->get_name();
+  }
+  return fmt::format("; see {} --help", command);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -58,11 +69,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
-    return app.exit(request);
+    return perform([&] { return app.exit(request); });
   } catch (const CLI::ExtrasError&) {
-    return fail(sentenceOf(app) + "; see probebench --help", pb::Failure::input);
+    return fail(sentenceOf(app) + helpHint(app), pb::Failure::input);
   } catch (const CLI::ParseError& error) {
-    return fail(std::string(error.what()) + "; see probebench --help", pb::Failure::input);
+    return fail(error.what() + helpHint(app), pb::Failure::input);
   }
   if (!action) return fail("a command is wanted; see probebench --help", pb::Failure::input);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,

@@ -60,7 +60,8 @@ void requireDistinct(const Suite& suite, const std::vector<PlannedSequence>& seq
   std::set<std::string> keys;
   for (const PlannedSequence& sequence : sequences)
     if (const std::string key = makeCell(suite, sequence, 0).sequenceKey(); !keys.insert(key).second)
-      throwInputError("a scene or an axis value may be given once, suite '{}' comes to '{}' twice", suite.name, key);
+      throwInputError("a scene or an axis value may be given once, suite '{}' comes to '{}' twice", suite.name,
+                      shortKey(key, describe(Technique())));
 }
 
 void keepOnly(const Suite& suite, const std::string& expression, std::vector<PlannedSequence>& sequences) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/commands/commands.h"
+#include "bench/shell_word.h"
 #include "bench/suite.h"
 #include "bench/suite_init.h"
 #include "scenes/error.h"
@@ -27,7 +28,7 @@ int init(const std::string& reference, const std::string& output) {
   parseSuite(text, output, path.parent_path().string());  // what is written can be read
   writeFileAtomically(output, text);
   fmt::print("{}", text);
-  fmt::print(stderr, "next: probebench run {} --dry-run\n", output);
+  fmt::print(stderr, "next: probebench run {} --dry-run\n", shellWord(output));
   return 0;
 }
 

@@ -86,7 +86,8 @@ int merge(const MergeOptions& options) {
     if (hasCosts(merged) || hasCosts(part)) requireSameMachine(merged.provenance, part.provenance, *run);
     for (const CellResult& cell : part.cells) {
       if (!keys.insert(cell.key()).second)
-        throwInputError("cell '{}' of '{}' stands in another run too", cell.key(), *run);
+        throwInputError("cell '{}' of '{}' stands in another run too", shortKey(cell.key(), describe(Technique())),
+                        *run);
       merged.cells.push_back(cell);
     }
     merged.attribution.insert(merged.attribution.end(), part.attribution.begin(), part.attribution.end());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "bench/axes.h"
 #include "bench/commands/commands.h"
+#include "bench/commands/validators.h"
 #include "bench/interrupt.h"
 #include "bench/oracle.h"
 #include "bench/suite.h"
@@ -21,6 +23,8 @@
 
 namespace pb {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct RenderOptions {
   std::string scene, renderer, output, camera;
@@ -53,7 +57,7 @@ Technique parseTechnique(const std::vector<std::string>& settings) {
   for (const std::string& text : settings) {
     const auto [axis, given] = parseAxisValues(text);
     if (given.size() != 1) throwInputError("--set of render takes one value, got '{}'", text);
-    values.insert_or_assign(axis, given.front());
+    if (!values.emplace(axis, given.front()).second) throwInputError("--set names axis '{}' twice", axis);
   }
   Technique technique;
   for (const Axis& axis : axisTable())
@@ -71,14 +75,31 @@ std::string parseAovs(const std::vector<std::string>& aovs) {
   return path;
 }
 
-void checkOutput(const std::string& path) {
-  if (!path.ends_with(".exr") && !path.ends_with(".png"))
-    throwInputError("an image is written as .exr or .png, got '{}'", path);
+// A picture may take hours: whether there is a place for it is found out before.
+void requirePlace(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throwEnvironmentError("can't write '{}': there is no folder '{}'", path, folder.string());
+  if (fs::is_directory(path)) throwEnvironmentError("can't write '{}': it is a folder", path);
+}
+
+void checkOutputs(const std::string& picture, const std::string& ids) {
+  if (!picture.ends_with(".exr") && !picture.ends_with(".png"))
+    throwInputError("an image is written as .exr or .png, got '{}'", picture);
+  requirePlace(picture);
+  if (ids.empty()) return;
+  requirePlace(ids);
+  // What isn't there has no canonical form of its own, its folder has.
+  const auto placeOf = [](const fs::path& path) {
+    return fs::canonical(fs::absolute(path).parent_path()) / path.filename();
+  };
+  if (placeOf(ids) == placeOf(picture)) throwInputError("-o and --aov want different files, got '{}' twice", ids);
 }
 
 RenderJob parseJob(const RenderOptions& options) {
-  checkOutput(options.output);
   RenderJob job;
+  job.idsPath = parseAovs(options.aovs);
+  checkOutputs(options.output, job.idsPath);
   std::tie(job.image.widthPx, job.image.heightPx) = parseSize(options.size);
   job.image.samplesPerAxis = samplesPerAxisOf(options.samples);
   job.technique = parseTechnique(options.settings);
@@ -91,7 +112,6 @@ RenderJob parseJob(const RenderOptions& options) {
   job.reference.spp = options.spp;
   job.reference.seed = options.seed;
   job.reference.sampling = options.sampling == "sobol" ? Sampling::sobol : Sampling::independent;
-  job.idsPath = parseAovs(options.aovs);
   job.scene = loadScene(options.scene);
   return job;
 }
@@ -215,11 +235,13 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& globals, Action& actio
           },
           "EVEN"))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of the reference's random numbers")->capture_default_str();
+  command->add_option("--seed", options->seed, "of the reference's random numbers")
+      ->check(wholeNumber())
+      ->capture_default_str();
   command->add_option("--sampling", options->sampling, "random numbers of the reference: sobol or independent")
       ->check(CLI::IsMember({"sobol", "independent"}))
       ->capture_default_str();
-  command->add_option("--exposure", options->exposure, "stops")->check(CLI::Range(-32.0, 32.0))->capture_default_str();
+  command->add_option("--exposure", options->exposure, "stops")->check(numberFrom(-32, 32))->capture_default_str();
   command->add_option("--aov", options->aovs, "ids=FILE.exr: what each primary sample shows")->allow_extra_args(false);
   command->callback(
       [&action, &globals, options] { action = [&globals, options] { return render(*options, globals); }; });

@@ -7,6 +7,7 @@
 
 #include "bench/axes.h"
 #include "bench/commands/commands.h"
+#include "bench/commands/validators.h"
 #include "bench/recommend.h"
 #include "bench/report/brief.h"
 #include "bench/report/comparison.h"
@@ -65,10 +66,11 @@ void addReportCommand(CLI::App& app, const GlobalOptions&, Action& action) {
   const auto options = std::make_shared<ReportOptions>();
   command->add_option("RUN_DIR", options->run, "folder of a run")->required();
   command->add_option("OTHER", options->other, "folder of a later run: cell by cell, what changed from RUN_DIR to it");
-  command->add_option("-o", options->output, "also write report.md, report.csv and the page report.html there");
+  command->add_option("-o", options->output, "also write report.md, report.csv and the page report.html there")
+      ->check(folderName());
   command->add_flag("--pull-request", options->brief, "print a few lines instead of all tables");
   command->add_option("--page-mb", options->pageMb, "largest report.html; beyond it the pictures stand beside it")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(numberFrom(0, 1e6))
       ->capture_default_str();
   command->callback([&action, options] {
     action = [options] { return options->other.empty() ? reportRun(*options) : reportChange(*options); };

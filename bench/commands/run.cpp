@@ -6,11 +6,15 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/axes.h"
 #include "bench/certify.h"
 #include "bench/commands/commands.h"
+#include "bench/commands/validators.h"
 #include "bench/plan.h"
 #include "bench/plan_check.h"
 #include "bench/provenance.h"
@@ -51,7 +55,12 @@ Suite effectiveSuite(const RunOptions& options) {
     for (const std::string& reference : options.scenes) suite.scenes.push_back(sceneLike(like, reference));
   }
   if (options.noCost) suite.cost.repetitions = 0;
-  for (const std::string& text : options.settings) setGridAxis(suite, parseAxisValues(text));
+  std::set<std::string> axes;
+  for (const std::string& text : options.settings) {
+    GridAxis axis = parseAxisValues(text);
+    if (!axes.insert(axis.first).second) throwInputError("--set names axis '{}' twice", axis.first);
+    setGridAxis(suite, std::move(axis));
+  }
   return suite;
 }
 
@@ -240,14 +249,14 @@ void addRunCommand(CLI::App& app, const GlobalOptions& globals, Action& action) 
   CLI::App* command = app.add_subcommand("run", "run a suite: errors, costs, tables");
   const auto options = std::make_shared<RunOptions>();
   command->add_option("SUITE", options->suite, "a .toml file or the name of a shipped suite")->required();
-  command->add_option("--out", options->output, "folder of the run (default out/SUITE)");
+  command->add_option("--out", options->output, "folder of the run (default out/SUITE)")->check(folderName());
   command->add_option("--scene", options->scenes, "in place of the suite's scenes; repeatable")
       ->allow_extra_args(false);
   command->add_option("--set", options->settings, "AXIS=V1,V2..: in place of the suite's values; repeatable")
       ->allow_extra_args(false);
   command->add_option("--only", options->only, "only cells whose key matches this regular expression");
   command->add_option("--shard", options->shard, "I/N: only part I of N; see merge");
-  command->add_option("--store", options->store, "folder of stored references");
+  command->add_option("--store", options->store, "folder of stored references")->check(folderName());
   command->add_flag("--no-cost", options->noCost, "measure errors only");
   command->add_flag("--resume", options->resume, "go on with a run that was stopped");
   CLI::Option* decided =

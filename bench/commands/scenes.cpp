@@ -6,6 +6,7 @@
 #include "bench/commands/commands.h"
 #include "scenes/builtin.h"
 #include "scenes/describe.h"
+#include "scenes/error.h"
 #include "scenes/gltf_save.h"
 #include "scenes/scene.h"
 
@@ -27,6 +28,8 @@ int printScene(const std::string& reference) {
 }
 
 int exportScene(const std::string& reference, const std::string& output) {
+  // Importers tell the two kinds of glTF files apart by their names.
+  if (!output.ends_with(".glb")) throwInputError("-o wants a file named .glb, got '{}'", output);
   saveGlb(*loadScene(reference), output);
   return 0;
 }

@@ -49,6 +49,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadUsage{{"run", "quick", "--set", "resolution=100"},
                  "axis 'resolution' wants powers of two from 8 to 4096, got 100"},
         BadUsage{{"run", "quick", "--set", "resolution"}, "AXIS=VALUE"},
+        BadUsage{{"run", "quick", "--set", "bounces=1", "--set", "bounces=2"}, "--set names axis 'bounces' twice"},
+        BadUsage{{"run", "quick", "--set", "bounces=1,01"}, "--set names value '1' of axis 'bounces' twice"},
+        BadUsage{{"run", "quick", "--out", ""}, "--out: wants a folder"},
         BadUsage{{"run", "quick", "--scene", "builtin:teapto"}, "teapot"},
         BadUsage{{"run", "quick", "--scene", "absent.glb"}, "absent.glb"},
         BadUsage{{"scenes", "info", "absent.obj"}, "absent.obj"},
@@ -75,6 +78,14 @@ INSTANTIATE_TEST_SUITE_P(
                  "ids=FILE.exr"},
         BadUsage{{"render", "builtin:mirrors", "--with", "raster", "-o", "a.exr", "--set", "bounces=1,2"},
                  "takes one value"},
+        BadUsage{{"render", "builtin:mirrors", "--with", "raster", "-o", "a.exr", "--set", "bounces=1", "--set",
+                  "bounces=2"},
+                 "--set names axis 'bounces' twice"},
+        BadUsage{{"render", "builtin:mirrors", "--with", "raster", "-o", "a.exr", "--exposure", "nan"},
+                 "wants a number from -32 to 32, got 'nan'"},
+        BadUsage{{"render", "builtin:mirrors", "--with", "reference", "-o", "a.exr", "--seed", "-1"}, "got '-1'"},
+        BadUsage{{"render", "builtin:mirrors", "--with", "raster", "-o", "a.exr", "--aov", "ids=./a.exr"},
+                 "-o and --aov want different files"},
         BadUsage{{"render", "builtin:mirrors", "--with", "reference", "-o", "a.exr", "--camera", "nobody"}, "nobody"},
         BadUsage{{"compare", "absent.exr", "absent.exr"}, "absent.exr"},
         BadUsage{{"compare", kPairs + "ldr_lines.ref.png", kPairs + "hdr_const.ref.pfm"},
@@ -88,11 +99,22 @@ INSTANTIATE_TEST_SUITE_P(
                  "--tone-mapper: 1 not in {aces,hable,reinhard}"},
         BadUsage{{"compare", kPairs + "ldr_lines.ref.png", kPairs + "ldr_lines.ref.png", "--heatmap", "map.jpg"},
                  "--heatmap wants a file named .png, got 'map.jpg'"},
+        BadUsage{{"scenes", "export", "builtin:mirrors", "-o", "a.gltf"}, "-o wants a file named .glb, got 'a.gltf'"},
+        BadUsage{{"report", "absent", "--page-mb", "nan"}, "wants a number from 0 to 1e+06, got 'nan'"},
         BadUsage{{"report", "absent"}, "absent"}, BadUsage{{"check", "absent", "--baseline", "b.json"}, "absent"},
         BadUsage{{"bless", "absent", "--baseline", "b.json", "--reason", "r"}, "absent"},
         BadUsage{{"merge", "absent", "-o", "m"}, "absent"}, BadUsage{{"axes"}, "subcommand is required"},
+        BadUsage{{"axes"}, "see probebench axes --help"},
+        BadUsage{{"scenes", "info"}, "see probebench scenes info --help"},
         BadUsage{{"axes", "info", "resolutoin"}, "nearest is 'resolution'"},
         BadUsage{{"scenes", "info", "builtin:absent"}, "absent"}));
+
+// The scene, which isn't there either, is not even looked for: a picture may take hours.
+TEST(Render, WithoutAPlaceForThePicture_IsRefusedBeforeItIsRendered) {
+  const TemporaryFolder folder;
+  expectRefused(runProgram({"render", "builtin:absent", "--with", "reference", "-o", folder.file("absent/a.exr")}), 3,
+                "there is no folder '" + folder.file("absent") + "'");
+}
 
 TEST(Suites, WithAnUnknownKey_AreRefusedByFileAndLine) {
   const TemporaryFolder folder;
@@ -167,9 +189,12 @@ TEST(Axes, ListAndInfo_AgreeOnNames) {
 TEST(StandardOutput, ThatCantBeWritten_IsAnEnvironmentError) {
   ProgramOptions full;
   full.standardOutput = "/dev/full";
-  const ProgramResult result = runProgram({"axes", "list"}, full);
-  EXPECT_EQ(result.exitCode, 3);
-  EXPECT_THAT(result.err, HasSubstr("standard output can't be written"));
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"axes", "list"}, {"--help"}, {"--version"}}) {
+    const ProgramResult result = runProgram(command, full);
+    EXPECT_EQ(result.exitCode, 3) << command.front();
+    EXPECT_THAT(result.err, HasSubstr("standard output can't be written"));
+  }
 }
 
 std::vector<std::string> keysOf(const nlohmann::ordered_json& object) {
