@@ -122,6 +122,8 @@ std::string encode(const EncodeRequest& request) {
   const OIIO::TypeDesc type = typeOf(request.type);
   OIIO::ImageSpec spec(request.width, request.height, static_cast<int>(request.channelNames.size()), type);
   spec.channelnames = request.channelNames;
+  // Without it OpenImageIO writes the time of day into EXR files: the same picture would not be the same bytes.
+  spec.attribute("DateTime", "");
   if (request.type == ChannelType::float32)
     spec["compression"] = "zip";
   else

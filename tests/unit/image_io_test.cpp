@@ -46,6 +46,13 @@ TEST(Exr, WrittenAndRead_KeepsEveryBitAndRow) {
   EXPECT_EQ(loaded.pixels(0, 0).w, 1.0f);
 }
 
+TEST(Exr, HoldsNoTimeOfDay_SoThatEqualPicturesAreEqualBytes) {
+  const std::string bytes = encodeExr(makeRamp(7, 5));
+  const std::string attribute("capDate\0string\0", 15);  // name, type, then the size of the text in four bytes
+  const std::size_t at = bytes.find(attribute);
+  EXPECT_TRUE(at == std::string::npos || bytes.compare(at + attribute.size(), 4, std::string(4, '\0')) == 0);
+}
+
 TEST(Exr, OfManyChannels_KeepsNamesAndValues) {
   const TemporaryFolder folder;
   const std::string path = folder.file("channels.exr");
