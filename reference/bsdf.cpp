@@ -116,6 +116,30 @@ shading::SpecularWeights Bsdf::microfacetWeights(float cosine) const {
   return w;
 }
 
+std::optional<Ways> Bsdf::ways() const {
+  if (isSpread()) return std::nullopt;
+  Ways ways;
+  if (straight_ > 0.0f)
+    ways.add({straightOn_, glm::vec3(1.0f - s_.opacity), 0.0f, Lobe::straight, refraction_.channel});
+  if (specular_ == 0.0f) return ways;
+  const shading::SpecularWeights weights = microfacetWeights(NoV_);
+  if (luminance(weights.reflection) > 0.0f) ways.add(reflect(s_.normal, NoV_, s_.opacity * weights.reflection, 1.0f));
+  if (luminance(weights.refraction) > 0.0f) addRefracted(s_.opacity * weights.refraction, ways);
+  return ways;
+}
+
+void Bsdf::addRefracted(const glm::vec3& weight, Ways& ways) const {
+  const auto add = [&](const glm::vec3& ofChannel, int channel) {
+    if (const auto ray = refract(s_.normal, NoV_, ofChannel, 1.0f, channel)) ways.add(*ray);
+  };
+  if (!splitsChannels()) return add(weight, refraction_.channel);
+  for (int channel = 0; channel < 3; ++channel) {
+    glm::vec3 ofChannel(0.0f);
+    ofChannel[channel] = weight[channel];
+    if (weight[channel] > 0.0f) add(ofChannel, channel);
+  }
+}
+
 std::optional<ScatteredRay> Bsdf::sample(Sampler& sampler) const {
   if (straight_ == 1.0f)
     return ScatteredRay{straightOn_, glm::vec3(1.0f - s_.opacity), 0.0f, Lobe::straight, refraction_.channel};
@@ -152,9 +176,11 @@ std::optional<ScatteredRay> Bsdf::sampleSpecular(Sampler& sampler) const {
   const float probability = share(reflection, refraction);
   const bool certain = reflection == 0.0f || refraction == 0.0f;
   const float outer = specular_ / s_.opacity;
-  if (!(certain ? refraction == 0.0f : sampler.next() < probability))
-    return refract(h, cosine, weights.refraction / (outer * (1.0f - probability)), specular_ * (1.0f - probability),
-                   sampler);
+  if (!(certain ? refraction == 0.0f : sampler.next() < probability)) {
+    glm::vec3 weight = weights.refraction / (outer * (1.0f - probability));
+    const int channel = splitsChannels() ? chooseChannel(weight, sampler.next()) : refraction_.channel;
+    return refract(h, cosine, weight, specular_ * (1.0f - probability), channel);
+  }
   const ScatteredRay ray = reflect(h, cosine, weights.reflection / (outer * probability), specular_ * probability);
   return ray.weight == glm::vec3(0.0f) ? std::nullopt : std::optional(ray);
 }
@@ -174,11 +200,15 @@ ScatteredRay Bsdf::reflect(const glm::vec3& h, float cosine, const glm::vec3& we
   return ray;
 }
 
+// Whether the channels of refracted light part.
+bool Bsdf::splitsChannels() const { return refraction_.disperses() && !matched_ && !shading::isThinWalled(s_); }
+
 // Smooth: Snell's law. Rough: weight (1 - F) G1(L), masking and shadowing being independent on the two sides (Walter et
-// al. 2007, eq. 23 and 41). Thin walls: the reflected direction mirrored through the wall.
+// al. 2007, eq. 23 and 41). Thin walls: the reflected direction mirrored through the wall. The channel is the one that
+// the ray carries.
 std::optional<ScatteredRay> Bsdf::refract(const glm::vec3& h, float cosine, const glm::vec3& weight, float probability,
-                                          Sampler& sampler) const {
-  ScatteredRay ray{-toViewer_, weight, 0.0f, Lobe::specular, refraction_.channel};
+                                          int channel) const {
+  ScatteredRay ray{-toViewer_, weight, 0.0f, Lobe::specular, channel};
   if (shading::isThinWalled(s_)) {
     if (!rough_) return ray;
     ray = reflect(h, cosine, weight, probability);
@@ -186,16 +216,14 @@ std::optional<ScatteredRay> Bsdf::refract(const glm::vec3& h, float cosine, cons
     return ray.weight == glm::vec3(0.0f) ? std::nullopt : std::optional(ray);
   }
   if (matched_) return ray;
-  const bool disperses = refraction_.disperses();
-  if (disperses) ray.channel = chooseChannel(ray.weight, sampler.next());
-  const float ior = refraction_.relativeIor[std::max(ray.channel, 0)];
+  const float ior = refraction_.relativeIor[std::max(channel, 0)];
   ray.direction = shading::refractedDirection(-toViewer_, h, ior);
   if (ray.direction == glm::vec3(0.0f)) return std::nullopt;
   if (!rough_) return ray;
   const float NoL = glm::dot(s_.normal, ray.direction);
   if (NoL >= 0.0f) return std::nullopt;
   ray.weight *= shading::G1_SmithGGX(-NoL, s_.alpha);
-  if (disperses) return ray;
+  if (splitsChannels()) return ray;
   ray.pdf = probability * visibleNormalPdf(h, cosine) * refractionJacobian(cosine, glm::dot(ray.direction, h), ior);
   return ray.pdf > 0.0f ? std::optional(ray) : std::nullopt;
 }

@@ -11,8 +11,11 @@
 // That is not reciprocal, but conserves energy for every direction of view.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 
 #include "reference/renderer.h"
 #include "reference/sampler.h"
@@ -42,6 +45,17 @@ struct ScatteredRay {
   int channel;  // that the path carries from here on, -1 for all
 };
 
+// All ways on from a surface where they are finitely many. Each has its share of the light for a weight.
+class Ways {
+ public:
+  void add(const ScatteredRay& way) { ways_[size_++] = way; }
+  std::span<const ScatteredRay> all() const { return {ways_.data(), size_}; }
+
+ private:
+  std::array<ScatteredRay, 5> ways_{};  // straight on, reflected, and refracted in three colours
+  std::size_t size_ = 0;
+};
+
 // Values towards one direction, and the densities with which sample() would have found it by each lobe.
 struct LobeValues {
   glm::vec3 diffuse{0.0f};
@@ -55,6 +69,9 @@ class Bsdf {
   // Under local transport the diffuse lobe is left out: it needs no rays. The surface must outlive this object.
   Bsdf(const shading::Surface& surface, const glm::vec3& toViewer, const InterfaceIor& refraction,
        DiffuseTransport diffuse);
+
+  // What sample() chooses from, if that needs no directions to be drawn; none: the path ends here.
+  std::optional<Ways> ways() const;
 
   // Draws random numbers only where there is more than one way to go. nullopt: the path ends here.
   std::optional<ScatteredRay> sample(Sampler& sampler) const;
@@ -71,8 +88,10 @@ class Bsdf {
   std::optional<ScatteredRay> sampleDiffuse(Sampler& sampler) const;
   std::optional<ScatteredRay> sampleSpecular(Sampler& sampler) const;
   ScatteredRay reflect(const glm::vec3& h, float cosine, const glm::vec3& weight, float probability) const;
+  bool splitsChannels() const;
   std::optional<ScatteredRay> refract(const glm::vec3& h, float cosine, const glm::vec3& weight, float probability,
-                                      Sampler& sampler) const;
+                                      int channel) const;
+  void addRefracted(const glm::vec3& weight, Ways& ways) const;
   void evaluateReflection(const glm::vec3& reflected, bool throughWall, LobeValues& values) const;
   void evaluateRefraction(const glm::vec3& toLight, LobeValues& values) const;
   float visibleNormalPdf(const glm::vec3& h, float VoH) const;

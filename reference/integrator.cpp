@@ -4,7 +4,9 @@ namespace pb {
 
 PathResult tracePath(const TracedScene& scene, const Ray& primary, float conePerMetre,
                      const ReferenceSettings& settings, Sampler& sampler) {
-  return PathsOfRay(scene, primary, conePerMetre, settings).trace(sampler);
+  BasicPath<NoRayLog> path(scene, primary, conePerMetre, settings);
+  path.toTheEnd(sampler);
+  return path.result();
 }
 
 }  // namespace pb

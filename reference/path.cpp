@@ -74,7 +74,7 @@ bool BasicPath<RayLog>::arrive(Arrival& arrival) {
   arrival.bsdf.reset();
   if (!onlyLightCounts_ && !endsAt(arrival.surface))
     arrival.bsdf.emplace(arrival.surface, -d_, refractionAt(arrival.interface), settings_->diffuse);
-  if (!lightNeedsNumbers_) addLight(vertexAt(arrival), arrival, nullptr);
+  if (!lightNeedsNumbersAt(arrival.surface)) addLight(vertexAt(arrival), arrival, nullptr);
   return true;
 }
 
@@ -89,13 +89,29 @@ bool BasicPath<RayLog>::arriveInTheDark() {
 template <class RayLog>
 bool BasicPath<RayLog>::depart(const Arrival& arrival, Sampler& sampler) {
   const Vertex vertex = vertexAt(arrival);
-  if (lightNeedsNumbers_) addLight(vertex, arrival, &sampler);
+  if (lightNeedsNumbersAt(arrival.surface)) addLight(vertex, arrival, &sampler);
   if (endsAt(arrival.surface)) return false;
   if (!arrival.bsdf) return goStraightOn(arrival);
   const bool looksForLight = scene_->lights != nullptr && arrival.bsdf->isSpread();
   if (looksForLight)
     add(sampledLight(vertex, *arrival.bsdf, specularHits_ + 1 == settings_->depth, sampler, result_.rays));
   return scatter(arrival, looksForLight, sampler);
+}
+
+template <class RayLog>
+void BasicPath<RayLog>::toTheEnd(Sampler& sampler) {
+  Arrival arrival;
+  while (arrive(arrival) && depart(arrival, sampler)) {
+  }
+}
+
+template <class RayLog>
+std::optional<Ways> BasicPath<RayLog>::certainWays(const Arrival& arrival) const {
+  if (lightNeedsNumbersAt(arrival.surface)) return std::nullopt;
+  if (endsAt(arrival.surface)) return Ways{};
+  const bool mayEndByChance = !settings_->depth && specularHits_ >= kRouletteFreeHits;
+  if (!arrival.bsdf || mayEndByChance) return std::nullopt;
+  return arrival.bsdf->ways();
 }
 
 template <class RayLog>
@@ -160,6 +176,12 @@ glm::vec3 BasicPath<RayLog>::localLight(const Vertex& vertex, Sampler* sampler) 
   return localRadiance(scene_->snapshot, vertex.surface, vertex.toViewer);
 }
 
+template <class RayLog>
+bool BasicPath<RayLog>::lightNeedsNumbersAt(const shading::Surface& surface) const {
+  return lightNeedsNumbers_ && surface.kind != shading::kSurfaceUnlit &&
+         shading::diffuseAlbedo(surface) != glm::vec3(0.0f);
+}
+
 // What lies behind a surface that is only partly there.
 template <class RayLog>
 bool BasicPath<RayLog>::goStraightOn(const Arrival& arrival) {
@@ -172,19 +194,23 @@ bool BasicPath<RayLog>::goStraightOn(const Arrival& arrival) {
 template <class RayLog>
 bool BasicPath<RayLog>::scatter(const Arrival& arrival, bool lightWasSampled, Sampler& sampler) {
   const std::optional<ScatteredRay> next = arrival.bsdf->sample(sampler);
-  if (!next) return false;
-  throughput_ *= next->weight;
+  if (!next || !goOn(arrival, *next, lightWasSampled)) return false;
+  return next->lobe == Lobe::straight || survives(next->lobe, next->weight, sampler);
+}
+
+template <class RayLog>
+bool BasicPath<RayLog>::goOn(const Arrival& arrival, const ScatteredRay& way, bool lightWasSampled) {
+  throughput_ *= way.weight;
   if (throughput_ == glm::vec3(0.0f)) return false;
-  channel_ = next->channel;
-  if (next->lobe != Lobe::straight) {
-    pdf_ = lightWasSampled ? next->pdf : 0.0f;
+  channel_ = way.channel;
+  if (way.lobe != Lobe::straight) {
+    pdf_ = lightWasSampled ? way.pdf : 0.0f;
     lastPosition_ = arrival.surface.position;
-    if (next->lobe == Lobe::specular) ++specularHits_;
-    if (next->lobe == Lobe::diffuse) onlyLightCounts_ = diffuseBounces_++ == settings_->diffuseDepth;
-    kind_ = kindAfter(next->lobe, diffuseBounces_);
-    if (!survives(next->lobe, next->weight, sampler)) return false;
+    if (way.lobe == Lobe::specular) ++specularHits_;
+    if (way.lobe == Lobe::diffuse) onlyLightCounts_ = diffuseBounces_++ == settings_->diffuseDepth;
+    kind_ = kindAfter(way.lobe, diffuseBounces_);
   }
-  d_ = shading::safeNormalize(next->direction);
+  d_ = shading::safeNormalize(way.direction);
   ray_ = {offsetOrigin(*scene_, arrival.hit, arrival.surface.position, d_), d_};
   if (isInterface(arrival.surface)) crossInto(arrival.hit);
   return true;

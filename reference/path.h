@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <utility>
 
 #include "reference/bsdf.h"
 #include "reference/direct_light.h"
@@ -66,9 +67,22 @@ class BasicPath {
   // On from there; false at the end of the path.
   bool depart(const Arrival& arrival, Sampler& sampler);
 
-  // The rays so far, or since they were forgotten.
+  // On by steps of both kinds.
+  void toTheEnd(Sampler& sampler);
+
+  // All ways on from there, if neither they nor the light there need random numbers; none at the end of the path.
+  std::optional<Ways> certainWays(const Arrival& arrival) const;
+
+  // On by one of them; false if that leads nowhere.
+  bool take(const Arrival& arrival, const ScatteredRay& way) { return goOn(arrival, way, false); }
+
+  // Weight of what the path finds from here on.
+  const glm::vec3& throughput() const { return throughput_; }
+
+  // What it has found, and its rays, so far or since they were taken.
   const PathResult& result() const { return result_; }
-  void forgetRays() { result_.rays = 0; }
+  glm::vec3 takeRadiance() { return std::exchange(result_.radiance, glm::vec3(0.0f)); }
+  std::int64_t takeRays() { return std::exchange(result_.rays, 0); }
 
  private:
   bool arriveInTheDark();
@@ -80,8 +94,10 @@ class BasicPath {
   void addLight(const Vertex& vertex, const Arrival& arrival, Sampler* sampler);
   void addOwnLight(const Vertex& vertex, Sampler* sampler);
   glm::vec3 localLight(const Vertex& vertex, Sampler* sampler);
+  bool lightNeedsNumbersAt(const shading::Surface& surface) const;
   bool goStraightOn(const Arrival& arrival);
   bool scatter(const Arrival& arrival, bool lightWasSampled, Sampler& sampler);
+  bool goOn(const Arrival& arrival, const ScatteredRay& way, bool lightWasSampled);
   bool survives(Lobe lobe, const glm::vec3& lastWeight, Sampler& sampler);
   void absorb(const Medium& medium, float segmentMetres);
   Medium mediumOf(const Hit& hit) const;

@@ -12,6 +12,7 @@
 #include "reference/film.h"
 #include "reference/integrator.h"
 #include "reference/light_sampler.h"
+#include "reference/paths_of_ray.h"
 #include "reference/ray_log.h"
 #include "reference/sampler.h"
 #include "scenes/error.h"
@@ -131,7 +132,7 @@ struct Rendering {
     Sampler firstSampler = sampler(0, 0);
     const PathResult first = paths.trace(firstSampler);
     std::int64_t rays = first.rays;
-    if (!firstSampler.used()) {
+    if (paths.areCertain()) {
       pixel.addPoint(first.radiance);
       return rays;
     }

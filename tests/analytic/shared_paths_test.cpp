@@ -6,6 +6,7 @@
 
 #include "reference/integrator.h"
 #include "reference/light_sampler.h"
+#include "reference/paths_of_ray.h"
 #include "reference/renderer.h"
 #include "tests/analytic/reference_scenes.h"
 
@@ -15,7 +16,7 @@ namespace {
 using namespace test;
 
 // Every way in which a path may branch, closed single-sided meshes to look at and out of, and a veil.
-std::shared_ptr<const Snapshot> makeStill(bool withLamp) {
+std::shared_ptr<const Snapshot> makeStill(bool withLamp, bool withGlass = true) {
   Scene scene = makeSceneUnder(makeProceduralSky());
   add(scene, makeSquareMesh({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 3.0f), makeDiffuseMaterial("floor", glm::vec3(0.6f)));
   const auto ball = [&](const Material& material, const glm::vec3& centre) {
@@ -24,7 +25,7 @@ std::shared_ptr<const Snapshot> makeStill(bool withLamp) {
     add(scene, makeSphereMesh(0.4f, 32, 16), material, node);
   };
   ball(makeMirrorMaterial("mirror", glm::vec3(0.9f)), {-0.9f, 0.5f, 0});
-  ball(makeGlass(1.5f), {0, 0.5f, 0});
+  if (withGlass) ball(makeGlass(1.5f), {0, 0.5f, 0});
   ball(makeDiffuseMaterial("matte", glm::vec3(0.5f)), {0.9f, 0.5f, 0});
   ball(makeMetalMaterial("metal", glm::vec3(0.2f), glm::vec3(3.0f), 0.4f), {0, 0.5f, 1.2f});
   if (withLamp) {
@@ -56,26 +57,44 @@ std::vector<ReferenceSettings> manySettings() {
   return many;
 }
 
-TEST(PathsOfRay, AreThePathsTracedAlone_WithFewerRays) {
-  const auto snapshot = makeStill(true);
-  const EmbreeScene embree(*snapshot);
-  const LightSampler lights(*snapshot);
-  const TracedScene scene{*snapshot, embree, {}, {}, &lights};
+// alone(ray, settings, sampler) is one sample of a ray that shares nothing with others.
+template <class Alone>
+void expectShared(const TracedScene& scene, const Alone& alone) {
   for (const ReferenceSettings& settings : manySettings()) {
-    std::int64_t shared = 0, alone = 0;
+    std::int64_t sharedRays = 0, aloneRays = 0;
     for (const Ray& ray : makeRays()) {
       PathsOfRay paths(scene, ray, 1e-3f, settings);
       for (std::uint64_t sample = 0; sample < 4; ++sample) {
         Sampler one(7, 0, sample), other(7, 0, sample);
-        const PathResult a = paths.trace(one), b = tracePath(scene, ray, 1e-3f, settings, other);
+        const PathResult a = paths.trace(one), b = alone(ray, settings, other);
         ASSERT_EQ(a.radiance, b.radiance);
         EXPECT_EQ(one.used(), other.used());
-        shared += a.rays;
-        alone += b.rays;
+        sharedRays += a.rays;
+        aloneRays += b.rays;
       }
     }
-    EXPECT_LT(shared, alone);
+    EXPECT_LT(sharedRays, aloneRays);
   }
+}
+
+TEST(PathsOfRay, AreTheSame_WhateverWasTracedBefore) {
+  const auto snapshot = makeStill(true);
+  const EmbreeScene embree(*snapshot);
+  const LightSampler lights(*snapshot);
+  const TracedScene scene{*snapshot, embree, {}, {}, &lights};
+  expectShared(scene, [&](const Ray& ray, const ReferenceSettings& settings, Sampler& sampler) {
+    return PathsOfRay(scene, ray, 1e-3f, settings).trace(sampler);
+  });
+}
+
+TEST(PathsOfRay, WhereNoWaysPart_AreThePathsTracedAlone) {
+  const auto snapshot = makeStill(false, false);
+  const EmbreeScene embree(*snapshot);
+  const LightSampler lights(*snapshot);
+  const TracedScene scene{*snapshot, embree, {}, {}, &lights};
+  expectShared(scene, [&](const Ray& ray, const ReferenceSettings& settings, Sampler& sampler) {
+    return tracePath(scene, ray, 1e-3f, settings, sampler);
+  });
 }
 
 // Flags that hide nothing make Embree ask about each candidate.
