@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "scenes/environment.h"
 #include "scenes/error.h"
-#include "scenes/image_io.h"
+#include "scenes/gltf/json_values.h"
 #include "scenes/screen.h"
 #include "scenes/spec.h"
 
@@ -15,77 +14,6 @@ namespace pb::gltf {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kLargest = 1e9;
-constexpr std::array kAmbientMembers = {&shading::Ambient::constant, &shading::Ambient::y,  &shading::Ambient::z,
-                                        &shading::Ambient::x,        &shading::Ambient::xy, &shading::Ambient::yz,
-                                        &shading::Ambient::zz,       &shading::Ambient::xz, &shading::Ambient::xxyy};
-
-double number(const json& value, const std::string& place, double minimum, double maximum) {
-  if (!value.is_number() || value < minimum || value > maximum)
-    throwInputError("{} wants a number from {} to {}, got {}", place, minimum, maximum, value.dump());
-  return value.get<double>();
-}
-
-glm::vec3 vector(const json& value, const std::string& place, double minimum = -kLargest, double maximum = kLargest) {
-  if (!value.is_array() || value.size() != 3)
-    throwInputError("{} wants an array of 3 numbers, got {}", place, value.dump());
-  return glm::dvec3(number(value[0], place, minimum, maximum), number(value[1], place, minimum, maximum),
-                    number(value[2], place, minimum, maximum));
-}
-
-// Grey may be written as one number.
-glm::vec3 color(const json& value, const std::string& place) {
-  return value.is_number() ? glm::vec3(glm::dvec3(number(value, place, 0.0, kLargest))) : vector(value, place, 0.0);
-}
-
-glm::vec3 unitVector(const json& value, const std::string& place) {
-  const glm::vec3 v = vector(value, place);
-  const float length = glm::length(v);
-  if (!(length > 0.0f)) throwInputError("{} wants a direction, got {}", place, value.dump());
-  // Dividing what is unit already would change its last bits.
-  return std::abs(length - 1.0f) < 1e-6f ? v : v / length;
-}
-
-const json& member(const json& object, const char* key, const std::string& place) {
-  if (!object.is_object()) throwInputError("{} wants an object, got {}", place, object.dump());
-  const auto found = object.find(key);
-  if (found == object.end()) throwInputError("{} wants a member '{}'", place, key);
-  return *found;
-}
-
-// A gradient whose channels are bounded by `limit` (0: unbounded).
-shading::Sky readSky(const json& sky, const std::string& place, float limit) {
-  const auto colorAt = [&](const char* key) { return color(member(sky, key, place), place + "/" + key); };
-  shading::Sky result;
-  result.horizon = glm::vec4(colorAt("horizon"), limit);
-  result.zenith = glm::vec4(colorAt("zenith"), 0.0f);
-  result.below = glm::vec4(colorAt("below"), 0.0f);
-  result.glow = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  result.toGlow = glm::vec4(0.0f, 1.0f, 0.0f, 0.0f);
-  if (!sky.contains("glow")) return result;
-  const double glowPower = number(member(sky, "glowPower", place), place + "/glowPower", 0.0, kLargest);
-  result.glow = glm::vec4(colorAt("glow"), static_cast<float>(glowPower));
-  result.toGlow = glm::vec4(unitVector(member(sky, "toGlow", place), place + "/toGlow"), 0.0f);
-  return result;
-}
-
-// `owner` is "" or names a node or material, with a colon and a space behind it.
-void warnOfUnknownMembers(const json& object, const std::string& owner, const std::string& place,
-                          const std::vector<std::string>& known, std::vector<std::string>& warnings) {
-  for (const auto& [key, value] : object.items())
-    if (std::ranges::find(known, key) == known.end())
-      warnings.push_back(fmt::format("{}a member of {} is ignored: {}", owner, place, unknownMessage(key, known)));
-}
-
-json toJson(const glm::vec3& v) { return {v.x, v.y, v.z}; }
-json toJson(const glm::vec4& v) { return toJson(glm::vec3(v)); }
-
-json toJson(const shading::Sky& sky) {
-  return {{"horizon", toJson(sky.horizon)}, {"zenith", toJson(sky.zenith)}, {"below", toJson(sky.below)},
-          {"glow", toJson(sky.glow)},       {"glowPower", sky.glow.w},      {"toGlow", toJson(sky.toGlow)},
-          {"limit", sky.horizon.w}};
-}
 
 // An axis-aligned box in world space.
 Bounds readBox(const json& value, const std::string& owner, const std::string& place,
@@ -99,110 +27,7 @@ Bounds readBox(const json& value, const std::string& owner, const std::string& p
   return box;
 }
 
-json toJson(const Bounds& box) { return {{"lower", toJson(box.lower)}, {"upper", toJson(box.upper)}}; }
-
-shading::Ambient readAmbient(const json& value, const std::string& place) {
-  if (!value.is_array() || value.size() != kAmbientMembers.size())
-    throwInputError("{} wants {} colours, got {}", place, kAmbientMembers.size(), value.dump());
-  shading::Ambient ambient;
-  for (std::size_t i = 0; i < kAmbientMembers.size(); ++i)
-    ambient.*kAmbientMembers[i] = glm::vec4(vector(value[i], fmt::format("{}/{}", place, i)), 0.0f);
-  return ambient;
-}
-
-json toJson(const shading::Ambient& ambient) {
-  json coefficients = json::array();
-  for (const auto member : kAmbientMembers) coefficients.push_back(toJson(ambient.*member));
-  return coefficients;
-}
-
-ImageRgba readFace(const Document& document, const json& bufferView, const std::string& place) {
-  if (!bufferView.is_number_integer() || bufferView < 0 || bufferView >= document.model.bufferViews.size())
-    throwInputError("{} wants the indices of bufferViews, got {}", place, bufferView.dump());
-  return readImage(bytesOf(document, bufferView), place).pixels;
-}
-
-std::vector<ImageRgba> readFaces(const Document& document, const json& bufferViews, const std::string& place) {
-  if (!bufferViews.is_array() || bufferViews.size() != 6)
-    throwInputError("{} wants six bufferViews, got {}", place, bufferViews.dump());
-  std::vector<ImageRgba> faces;
-  for (const json& bufferView : bufferViews) {
-    faces.push_back(readFace(document, bufferView, place));
-    if (faces.back().width() != faces.back().height() || faces.back().width() != faces.front().width())
-      throwInputError("{} wants square images of one size, got {} x {}", place, faces.back().width(),
-                      faces.back().height());
-  }
-  return faces;
-}
-
-Environment readFacesEnvironment(const Document& document, const json& faces, const std::string& place,
-                                 std::vector<std::string>& warnings) {
-  std::vector<ImageRgba> images = readFaces(document, faces, place);
-  for (ImageRgba& image : images) repairRadiance(image, place, warnings);
-  return makeCubeEnvironment("cube map", std::move(images));
-}
-
-Environment readGradientEnvironment(const json& sky, const std::string& place, std::vector<std::string>& warnings) {
-  if (!sky.is_object()) throwInputError("{} wants an object, got {}", place, sky.dump());
-  warnOfUnknownMembers(sky, "", place, {"horizon", "zenith", "below", "glow", "glowPower", "toGlow", "limit"},
-                       warnings);
-  const double limit = number(sky.value("limit", json(0.0)), place + "/limit", 0.0, kLargest);
-  return makeGradientEnvironment(readSky(sky, place, static_cast<float>(limit)));
-}
-
-// The one of its three members that says what the sky is.
-std::string kindOfEnvironment(const json& value, const std::string& place) {
-  if (!value.is_object()) throwInputError("{} wants an object, got {}", place, value.dump());
-  std::string kind;
-  for (const char* key : {"constant", "sky", "faces"}) {
-    if (!value.contains(key)) continue;
-    if (!kind.empty()) throwInputError("{} wants one of constant, sky and faces, got {} and {}", place, kind, key);
-    kind = key;
-  }
-  if (kind.empty()) throwInputError("{} wants one of constant, sky and faces, got none", place);
-  return kind;
-}
-
-Environment readEnvironment(const Document& document, const json& value, const std::string& place,
-                            std::vector<std::string>& warnings) {
-  const std::string kind = kindOfEnvironment(value, place);
-  warnOfUnknownMembers(value, "", place, {"name", "ambient", "constant", "sky", "faces"}, warnings);
-  const std::string kindPlace = place + "/" + kind;
-  Environment environment = kind == "constant" ? makeConstantEnvironment(color(value[kind], kindPlace))
-                            : kind == "sky"    ? readGradientEnvironment(value[kind], kindPlace, warnings)
-                                               : readFacesEnvironment(document, value[kind], kindPlace, warnings);
-  if (value.contains("name")) {
-    const json& name = value["name"];
-    if (!name.is_string()) throwInputError("{}/name wants a string, got {}", place, name.dump());
-    environment.name = name;
-  }
-  if (value.contains("ambient")) environment.ambient = readAmbient(value["ambient"], place + "/ambient");
-  return environment;
-}
-
-json toJson(const Environment& source, const AddBufferView& addBufferView) {
-  json environment = {{"name", source.name}, {"ambient", toJson(source.ambient)}};
-  if (source.sky.toGlow.w > 0.5f)
-    for (const ImageRgba& face : source.faces) environment["faces"].push_back(addBufferView(encodeExr(rgbOf(face))));
-  else
-    environment["sky"] = toJson(source.sky);
-  return environment;
-}
-
-// Whether times increase is for finishScene() to check.
-std::vector<EnvironmentChange> readEnvironmentChanges(const Document& document, const json& values,
-                                                      const std::string& place, std::vector<std::string>& warnings) {
-  if (!values.is_array()) throwInputError("{} wants an array, got {}", place, values.dump());
-  std::vector<EnvironmentChange> changes;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string at = fmt::format("{}/{}", place, i);
-    EnvironmentChange& change = changes.emplace_back();
-    change.timeSeconds = number(member(values[i], "fromSeconds", at), at + "/fromSeconds", 1e-6, 1e6);
-    change.environment = readEnvironment(document, member(values[i], "environment", at), at + "/environment", warnings);
-    warnOfUnknownMembers(values[i], "", at, {"fromSeconds", "environment"}, warnings);
-  }
-  return changes;
-}
+json boxJson(const Bounds& box) { return {{"lower", toJson(box.lower)}, {"upper", toJson(box.upper)}}; }
 
 bool readShadows(const json& value, const std::string& place) {
   if (value != "none" && value != "traced")
@@ -253,7 +78,7 @@ std::vector<Screen> readScreens(const json& values, const std::string& place, st
   return screens;
 }
 
-json toJson(const Screen& screen) {
+json screenJson(const Screen& screen) {
   return {{"name", screen.name},
           {"program", kScreenProgramNames.at(static_cast<std::size_t>(screen.program))},
           {"size", {screen.widthPx, screen.heightPx}},
@@ -423,8 +248,8 @@ json sceneExtras(const Scene& scene, const AddBufferView& addBufferView) {
   for (const EnvironmentChange& change : scene.environmentChanges)
     own["environmentChanges"].push_back(
         {{"fromSeconds", change.timeSeconds}, {"environment", toJson(change.environment, addBufferView)}});
-  for (const Screen& screen : scene.screens) own["screens"].push_back(toJson(screen));
-  if (scene.room) own["room"] = toJson(*scene.room);
+  for (const Screen& screen : scene.screens) own["screens"].push_back(screenJson(screen));
+  if (scene.room) own["room"] = boxJson(*scene.room);
   return {{"probebench", own}};
 }
 
@@ -434,7 +259,7 @@ json nodeExtras(const Node& node) {
     json& settings = extras["probe"];
     settings["enabled"] = node.probe->enabled;
     if (node.probe->position) settings["position"] = toJson(*node.probe->position);
-    if (node.probe->box) settings["box"] = toJson(*node.probe->box);
+    if (node.probe->box) settings["box"] = boxJson(*node.probe->box);
   }
   if (node.wave)
     extras["probebench"]["wave"] = {{"amplitude", node.wave->amplitude},

@@ -4,14 +4,13 @@
 // the extras of two other benchmarks' scenes: ambientRadiance, sky, skyRadiance, diffuse, cubeCamera.near.
 #pragma once
 
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "scenes/gltf/document.h"
+#include "scenes/gltf/environment_extras.h"
 #include "scenes/scene.h"
 
 namespace pb::gltf {
@@ -32,9 +31,6 @@ std::optional<Wave> readWaveExtras(const nlohmann::json& extras, const std::stri
 // materials[].extras.probebench. Warnings start with `owner`, the material.
 void readMaterialExtras(const nlohmann::json& extras, const std::string& owner, Material& material,
                         std::vector<std::string>& warnings);
-
-// Adds bytes to the file and returns their buffer view.
-using AddBufferView = std::function<int(std::string_view bytes)>;
 
 nlohmann::json sceneExtras(const Scene& scene, const AddBufferView& addBufferView);
 // null where there is nothing to say.
