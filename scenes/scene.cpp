@@ -9,88 +9,13 @@
 
 #include "scenes/error.h"
 #include "scenes/snapshot.h"
+#include "scenes/track.h"
 
 namespace pb {
 namespace {
 
-// Box filter; odd sizes are covered by weighting the source texels by their overlap with the target texel.
-ImageRgba halved(const ImageRgba& source) {
-  ImageRgba target(std::max(1, source.width() / 2), std::max(1, source.height() / 2));
-  const double stepX = static_cast<double>(source.width()) / target.width();
-  const double stepY = static_cast<double>(source.height()) / target.height();
-  for (int y = 0; y < target.height(); ++y)
-    for (int x = 0; x < target.width(); ++x) {
-      const double x0 = x * stepX, x1 = x0 + stepX, y0 = y * stepY, y1 = y0 + stepY;
-      glm::dvec4 sum(0.0);
-      for (int sy = static_cast<int>(y0); sy < source.height() && sy < y1; ++sy)
-        for (int sx = static_cast<int>(x0); sx < source.width() && sx < x1; ++sx) {
-          const double overlap =
-              (std::min(x1, sx + 1.0) - std::max(x0, double(sx))) * (std::min(y1, sy + 1.0) - std::max(y0, double(sy)));
-          sum += overlap * glm::dvec4(source(sx, sy));
-        }
-      target(x, y) = glm::vec4(sum / (stepX * stepY));
-    }
-  return target;
-}
-
-shading::TextureSlot emptySlot() {
-  shading::TextureSlot slot;
-  slot.matrix = {1.0f, 0.0f, 0.0f, 1.0f};
-  slot.offset = glm::vec4(0.0f);
-  slot.sampler_ = {shading::kWrapRepeat, shading::kWrapRepeat, shading::kFilterLinear, shading::kFilterLinearMipLinear};
-  return slot;
-}
-
 // Pictures are made on the CPU for every frame.
 constexpr int kMaxScreenPx = 1024;
-
-std::size_t valuesPerKey(const Track& track) { return track.interpolation == Interpolation::cubicSpline ? 3 : 1; }
-
-glm::quat quatOf(const glm::vec4& xyzw) { return {xyzw.w, xyzw.x, xyzw.y, xyzw.z}; }
-
-glm::vec4 slerp(const glm::vec4& a, const glm::vec4& b, float t) {
-  const glm::quat q = glm::slerp(glm::normalize(quatOf(a)), glm::normalize(quatOf(b)), t);
-  return {q.x, q.y, q.z, q.w};
-}
-
-// Hermite spline of glTF 2.0, appendix C.5, from v0 to v1, `step` seconds later, with the out-tangent b0 and the
-// in-tangent a1.
-template <class T>
-T hermite(const T& v0, const T& b0, const T& a1, const T& v1, float t, float step) {
-  const float t2 = t * t, t3 = t2 * t;
-  return (2 * t3 - 3 * t2 + 1) * v0 + step * (t3 - 2 * t2 + t) * b0 + (-2 * t3 + 3 * t2) * v1 + step * (t3 - t2) * a1;
-}
-
-// Where a time lies between the keys: t of the way from key `first` to `second`, `step` seconds later.
-struct BetweenKeys {
-  std::size_t first, second;
-  float t, step;
-};
-BetweenKeys locate(const std::vector<float>& times, double timeSeconds) {
-  const auto time = static_cast<float>(timeSeconds);
-  if (time <= times.front()) return {0, 0, 0.0f, 0.0f};
-  if (time >= times.back()) return {times.size() - 1, times.size() - 1, 0.0f, 0.0f};
-  const auto k = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin()) - 1;
-  const float step = times[k + 1] - times[k];
-  return {k, k + 1, (time - times[k]) / step, step};
-}
-
-// at(key, part) is what stands at a key: its value or, of a cubic spline, its in-tangent, value and out-tangent.
-template <class At, class Mix>
-auto interpolate(const Track& track, const BetweenKeys& keys, const At& at, const Mix& mix) {
-  const bool spline = track.interpolation == Interpolation::cubicSpline;
-  const std::size_t value = spline ? 1 : 0;
-  if (keys.first == keys.second || track.interpolation == Interpolation::step) return at(keys.first, value);
-  if (spline)
-    return hermite(at(keys.first, 1), at(keys.first, 2), at(keys.second, 0), at(keys.second, 1), keys.t, keys.step);
-  return mix(at(keys.first, 0), at(keys.second, 0), keys.t);
-}
-
-// Numbers a value of a weight track has, 0 if its length is no multiple of the keys'.
-std::size_t weightsPerValue(const Track& track) {
-  const std::size_t values = track.timesSeconds.size() * valuesPerKey(track);
-  return values == 0 || track.weights.size() % values != 0 ? 0 : track.weights.size() / values;
-}
 
 void checkNumbers(const std::string& node, std::span<const float> numbers) {
   for (const float number : numbers)
@@ -247,74 +172,6 @@ Bounds transformed(const Bounds& bounds, const glm::mat4& matrix) {
   return result;
 }
 
-Texture makeTexture(std::string name, ImageRgba level0) {
-  Texture texture;
-  texture.name = std::move(name);
-  texture.levels.push_back(std::move(level0));
-  while (texture.levels.back().width() > 1 || texture.levels.back().height() > 1)
-    texture.levels.push_back(halved(texture.levels.back()));
-  return texture;
-}
-
-Material makeDiffuseMaterial(std::string name, glm::vec3 albedo) {
-  Material material;
-  material.name = std::move(name);
-  shading::MaterialConstants& c = material.constants;
-  c.baseColor = glm::vec4(albedo, 1.0f);
-  c.emission = {0.0f, 0.0f, 0.0f, 1.0f};
-  c.factors = {0.0f, 1.0f, 1.0f, 0.0f};
-  c.kind = {shading::kSurfaceDiffuse, 1.5f, 0.0f, 0.0f};
-  c.specular = {1.0f, 1.0f, 1.0f, 0.0f};
-  c.absorption = c.conductorEta = c.conductorK = glm::vec4(0.0f);
-  c.alpha = {shading::kAlphaOpaque, 0.5f, 0.0f, 0.0f};
-  c.baseColorSlot = c.metallicRoughnessSlot = c.normalSlot = c.emissionSlot = c.occlusionSlot = emptySlot();
-  return material;
-}
-
-Material makeMirrorMaterial(std::string name, glm::vec3 f0) {
-  Material material = makeDiffuseMaterial(std::move(name), f0);
-  material.constants.factors.x = 1.0f;
-  material.constants.factors.y = 0.0f;
-  material.constants.kind.x = shading::kSurfaceMirror;
-  material.isSpecularDominant = true;
-  return material;
-}
-
-Material makeMetalMaterial(std::string name, glm::vec3 eta, glm::vec3 k, float roughness) {
-  Material material = makeMirrorMaterial(std::move(name), shading::F_Conductor(1.0f, eta, k));
-  shading::MaterialConstants& c = material.constants;
-  c.conductorEta = glm::vec4(eta, 1.0f);
-  c.conductorK = glm::vec4(k, 0.0f);
-  c.factors.y = roughness;
-  if (shading::ggxAlpha(roughness) > 0.0f) c.kind.x = shading::kSurfaceGlossy;
-  material.isSpecularDominant = roughness < kSmoothRoughness;
-  return material;
-}
-
-Material makeGlassMaterial(std::string name, float ior, float thickness) {
-  Material material = makeDiffuseMaterial(std::move(name), glm::vec3(1.0f));
-  shading::MaterialConstants& c = material.constants;
-  c.kind = {shading::kSurfaceGlass, ior, thickness, 0.0f};
-  c.factors = {0.0f, 0.0f, 1.0f, 1.0f};
-  c.specular.w = 1.0f;
-  material.isSpecularDominant = true;
-  return material;
-}
-
-void setAttenuation(Material& material, glm::vec3 color, float distance) {
-  material.attenuationColor = color;
-  material.attenuationDistance = distance;
-  // Beer-Lambert: exp(-absorption distance) = color.
-  // A difference, because a sign would make a negative zero of white.
-  const glm::vec3 absorption = (0.0f - glm::log(glm::max(color, glm::vec3(1e-6f)))) / distance;
-  material.constants.absorption = glm::vec4(absorption, 0.0f);
-}
-
-bool hasSpecularLobe(const Material& material) {
-  const float kind = material.constants.kind.x;
-  return kind == shading::kSurfaceMirror || kind == shading::kSurfaceGlass || kind == shading::kSurfaceGlossy;
-}
-
 bool ownsProbe(const Scene& scene, const Instance& instance) {
   const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
   const std::optional<ProbeSettings>& settings = scene.nodes[static_cast<std::size_t>(instance.node)].probe;
@@ -324,27 +181,6 @@ bool ownsProbe(const Scene& scene, const Instance& instance) {
 bool deforms(const Scene& scene, const Instance& instance) {
   const Node& node = scene.nodes[static_cast<std::size_t>(instance.node)];
   return node.wave || !instance.mesh->targets.empty() || (node.skin >= 0 && !instance.mesh->joints.empty());
-}
-
-glm::vec4 sampleTrack(const Track& track, double timeSeconds) {
-  const std::size_t perKey = valuesPerKey(track);
-  const auto at = [&](std::size_t key, std::size_t part) { return track.values[key * perKey + part]; };
-  const auto mix = [&](const glm::vec4& a, const glm::vec4& b, float t) {
-    return track.target == TrackTarget::rotation ? slerp(a, b, t) : glm::mix(a, b, t);
-  };
-  return interpolate(track, locate(track.timesSeconds, timeSeconds), at, mix);
-}
-
-std::vector<float> sampleWeights(const Track& track, double timeSeconds) {
-  const std::size_t count = weightsPerValue(track), perKey = valuesPerKey(track);
-  const BetweenKeys keys = locate(track.timesSeconds, timeSeconds);
-  std::vector<float> weights;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto at = [&](std::size_t key, std::size_t part) { return track.weights[(key * perKey + part) * count + i]; };
-    const auto mix = [](float a, float b, float t) { return glm::mix(a, b, t); };
-    weights.push_back(interpolate(track, keys, at, mix));
-  }
-  return weights;
 }
 
 void addFramingCamera(Scene& scene) {
