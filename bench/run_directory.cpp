@@ -80,6 +80,7 @@ void readLines(const std::string& path, const Read& read) {
 
 RunDirectory::RunDirectory(fs::path folder, const RunIdentity& identity, bool resume) : folder_(std::move(folder)) {
   makeFolder(folder_);
+  lock_.emplace(folder_);
   const std::optional<RunIdentity> earlier = readMarker(folder_);
   if (!earlier && !isEmpty(folder_))
     throwInputError("output folder '{}' is not empty and was not made by probebench, choose another --out",

@@ -7,9 +7,11 @@
 
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/folder_lock.h"
 #include "bench/results.h"
 
 namespace pb {
@@ -22,7 +24,7 @@ struct RunIdentity {
 class RunDirectory {
  public:
   // Makes the folder if it is absent. Without `resume` an earlier run of the same suite is removed. Throws an input
-  // Error for a folder that may not be used, an environment Error for one that can't be written.
+  // Error for a folder that may not be used, an environment Error for one that can't be written, or is in use.
   RunDirectory(std::filesystem::path folder, const RunIdentity& identity, bool resume);
 
   // finish() has written there.
@@ -60,6 +62,7 @@ class RunDirectory {
   void appendLine(const char* name, const std::string& line);
 
   std::filesystem::path folder_;
+  std::optional<FolderLock> lock_;  // from the constructor on
   std::vector<CellResult> finished_, kept_;
   std::vector<Attribution> finishedAttributions_;
   std::mutex journalMutex_;

@@ -59,6 +59,17 @@ TEST(RunDirectory, OfAnotherSuite_IsRefusedUntouched) {
   EXPECT_TRUE(fs::exists(folder.file("journal.jsonl")));
 }
 
+TEST(RunDirectory, ThatAnotherRunWritesTo_IsRefusedUntilThatOneEnds) {
+  const TemporaryFolder folder;
+  {
+    RunDirectory first(folder.path(), kQuick, false);
+    first.append(cellOfFrame(0));
+    for (const bool resume : {false, true}) EXPECT_THROW(RunDirectory(folder.path(), kQuick, resume), Error) << resume;
+    first.append(cellOfFrame(1));
+  }
+  EXPECT_EQ(RunDirectory(folder.path(), kQuick, true).finishedCells().size(), 2u);
+}
+
 TEST(RunDirectory, WithoutResume_RemovesTheEarlierRunAndNothingElse) {
   const TemporaryFolder folder;
   RunDirectory(folder.path(), kQuick, false).append(cellOfFrame(0));
