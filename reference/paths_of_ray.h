@@ -68,6 +68,7 @@ class BasicPathsOfRay {
   void follow(const BasicPath<RayLog>& path) {
     Open& open = open_[size_].emplace(path);
     while (open.path.arrive(open.arrival)) {
+      if (meanOf(open.path.throughput()) == 0.0f) break;  // all was absorbed: nothing to choose in proportion to
       const std::optional<Ways> ways = open.path.certainWays(open.arrival);
       if (!ways || !mayPart(open.path, ways->all())) {
         ++size_;

@@ -36,7 +36,7 @@ struct ReferenceSettings {
 };
 
 // Version of the integrator: changes whenever a picture may change. Part of the store's keys.
-inline constexpr int kIntegratorVersion = 6;
+inline constexpr int kIntegratorVersion = 7;
 
 // Independent batches of samples (at most kMaxBatches, min(spp, kMaxBatches) of them, an even number), each the mean of
 // its samples.

@@ -106,6 +106,33 @@ TEST(PartedPaths, AreLessNoisy) {
   EXPECT_LT(parted, 0.2 * lone);
 }
 
+glm::vec3 certainRadianceOf(const Material& ball, DiffuseTransport diffuse) {
+  Scene content = makeSceneUnder(makeProceduralSky());
+  add(content, makeSphereMesh(0.4f, 32, 16), ball);
+  const auto snapshot = finish(std::move(content));
+  const EmbreeScene embree(*snapshot);
+  const TracedScene scene{*snapshot, embree, {}, {}};
+  const ReferenceSettings settings{.diffuse = diffuse};
+  PathsOfRay paths(scene, {{0.1f, 0.2f, 1.0f}, {0, 0, -1.0f}}, 0.0f, settings);
+  EXPECT_TRUE(paths.areCertain());
+  Sampler sampler(1, 0, 0);
+  return paths.trace(sampler).radiance;
+}
+
+// What is refracted comes to the ball's far side with nothing left: exp(-13.8 / 1e-4) is 0 in floats.
+TEST(PartedPaths, OfBlackGlass_AreWhatItReflects) {
+  Material absorbing = makeGlass(1.7f);
+  absorbing.constants.kind.w = 1.0f;
+  Material reflecting = absorbing;  // what it lets through is multiplied by its colour
+  reflecting.constants.baseColor = glm::vec4(0, 0, 0, 1);
+  setAttenuation(absorbing, glm::vec3(0.0f), 1e-4f);
+  for (const auto diffuse : {DiffuseTransport::local, DiffuseTransport::traced}) {
+    const glm::vec3 radiance = certainRadianceOf(absorbing, diffuse);
+    EXPECT_GT(radiance.x, 0.0f);
+    EXPECT_EQ(radiance, certainRadianceOf(reflecting, diffuse));
+  }
+}
+
 TEST(PartedPaths, OfAPane_AreCertain) {
   Scene content = makeSceneUnder(makeProceduralSky());
   Material pane = makeGlass(1.5f);
