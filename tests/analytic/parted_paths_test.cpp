@@ -141,7 +141,8 @@ TEST(PartedPaths, OfAPane_AreCertain) {
   const auto snapshot = finish(std::move(content));
   const EmbreeScene embree(*snapshot);
   const TracedScene scene{*snapshot, embree, {}, {}};
-  PathsOfRay paths(scene, {{0.1f, 0.2f, 1.0f}, {0.1f, 0.3f, -1.0f}}, 0.0f, {});
+  const ReferenceSettings settings;
+  PathsOfRay paths(scene, {{0.1f, 0.2f, 1.0f}, {0.1f, 0.3f, -1.0f}}, 0.0f, settings);
   EXPECT_TRUE(paths.areCertain());
   Sampler sampler(1, 0, 0);
   EXPECT_EQ(paths.trace(sampler).rays, 3);  // to the pane, back and through
