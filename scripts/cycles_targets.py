@@ -2,8 +2,10 @@
 
 Both render the same files, global illumination and diffuse depth 0, at a few numbers of samples; start-up is measured
 and left out. The truth is the reference's own picture of twice the size and other random numbers, averaged: two of them,
-so that their noise drops out of the error, mean((x - a) (x - b) / (m^2 + 0.01)) for truths a and b with mean m. The time
-to an error is interpolated, or extrapolated from the last two points, along straight lines in log-log.
+so that their noise drops out of the error, mean((x - a) (x - b) / (m^2 + 0.01)) for truths a and b with mean m. Cycles, whose
+pictures converge to something else by 1e-4, is measured by its noise alone: half the squared difference of two pictures with
+other random numbers, over the same. The time to an error is interpolated, or extrapolated from the last two points, along
+straight lines in log-log.
 """
 import math
 import pathlib
@@ -20,7 +22,6 @@ WIDTH, HEIGHT = 640, 360
 CYCLES_SPP = (16, 64, 256)
 REFERENCE_SAMPLES = ((16, 2), (16, 4), (64, 2), (64, 4), (64, 8))  # primary points and samples of each
 ERRORS = (1e-3, 1e-4)
-
 
 
 def read_exr(path):
@@ -69,6 +70,12 @@ def error(picture, truths):
     return float(((picture - a) * (picture - b) / (mean * mean + 0.01)).mean())
 
 
+def noise(picture, other, truths):
+    """The error of either picture against what both converge to."""
+    mean = (truths[0] + truths[1]) / 2
+    return float(((picture - other) ** 2 / (2 * (mean * mean + 0.01))).mean())
+
+
 def seconds_to(target, points):
     """points: (error, seconds) with falling errors."""
     points = sorted(points, reverse=True)
@@ -89,25 +96,33 @@ class Race:
                      "--diffuse-depth", self.depth, "--size", size, "--samples", str(samples), "--spp", str(spp),
                      "--seed", str(seed), "-o", self.folder / name]).cpu_s
 
-    def cycles(self, spp, size=None):
+    def cycles(self, spp, seed=1, size=None):
         size = size or f"{WIDTH}x{HEIGHT}"
         return Used(["blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python", SCRIPTS / "cycles.py",
-                     "--", self.scene, "-o", self.folder / "cycles.exr", "--size", size, "--spp", str(spp), "--seed", "1",
+                     "--", self.scene, "-o", self.folder / "cycles.exr", "--size", size, "--spp", str(spp), "--seed", str(seed),
                      "--bounces", "8", "--diffuse-depth", self.depth]).cpu_s
 
     def truth(self, seed):
         self.reference(64, 2, seed, scale=2)
         return read_exr(self.folder / "reference.exr").reshape(HEIGHT, 2, WIDTH, 2, 3).mean((1, 3))
 
+    def noise_of_cycles(self, spp, truths):
+        """With the seconds of a picture."""
+        pictures, seconds = [], 0
+        for seed in (1, 2):
+            seconds += self.cycles(spp, seed) / 2
+            pictures.append(read_exr(self.folder / "cycles.exr"))
+        return noise(*pictures, truths), seconds
+
     def run(self):
         """(error, seconds) of Cycles and of the reference, rendered in turn."""
         truths = self.truth(7777), self.truth(7778)
-        start = self.cycles(1, "16x16"), self.reference(1, 2, size="16x16")
+        start = self.cycles(1, size="16x16"), self.reference(1, 2, size="16x16")
         points = [], []
         for i in range(max(len(CYCLES_SPP), len(REFERENCE_SAMPLES))):
             if i < len(CYCLES_SPP):
-                seconds = self.cycles(CYCLES_SPP[i]) - start[0]
-                points[0].append((error(read_exr(self.folder / "cycles.exr"), truths), seconds))
+                cycles_noise, seconds = self.noise_of_cycles(CYCLES_SPP[i], truths)
+                points[0].append((cycles_noise, seconds - start[0]))
             if i < len(REFERENCE_SAMPLES):
                 seconds = self.reference(*REFERENCE_SAMPLES[i]) - start[1]
                 points[1].append((error(read_exr(self.folder / "reference.exr"), truths), seconds))
